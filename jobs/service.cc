@@ -16,6 +16,7 @@
 #include "jobs/requests/extend_request.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/results/page.h"
+#include "jobs/optimisation/optimisation_study.h"
 #include "jobs/search/limit_study.h"
 #include "jobs/store/store.h"
 #include "jobs/studies/study_runner.h"
@@ -47,7 +48,8 @@ Service::Service(ServiceOptions options)
                            .max_queued_jobs = options_.max_queued_jobs,
                            .threads = options_.threads};
   runners_ = {std::make_unique<StudyRunner>(*store_, limits, make_limit_study()),
-              std::make_unique<StudyRunner>(*store_, limits, make_wear_study(store_->reader))};
+              std::make_unique<StudyRunner>(*store_, limits, make_wear_study(store_->reader)),
+              std::make_unique<StudyRunner>(*store_, limits, make_optimisation_study())};
   if (store_->engine_before() != engine_version()) {
     options_.log("the store's results are of the engine " + store_->engine_before() + ", this program's is " +
                  engine_version() + ": jobs that are asked for again are computed again");

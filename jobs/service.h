@@ -21,6 +21,7 @@
 #include "engine/analysis/quantities.h"
 #include "jobs/base/change_signal.h"
 #include "jobs/base/in_flight_keys.h"
+#include "jobs/base/study_kind.h"
 #include "jobs/cluster/site.h"
 #include "jobs/results/page_query.h"
 #include "jobs/results/resource_json.h"
@@ -76,10 +77,6 @@ struct SweepNews {
   };
   std::vector<JobEvent> jobs;  ///< by change
 };
-
-/// Kind of study. kLimit searches the limit of a parameter, kWear follows a bearing that is worn over the
-/// hours.
-enum class StudyKind { kLimit, kWear };
 
 /// Service of sweeps, jobs and studies: validates, stores, computes and hands them out. One per store.
 ///
@@ -142,13 +139,14 @@ class Service {
   void check_room() const;
 
   /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves.
-  /// See parse_search_request() and parse_wear_request(). @param key as of submit_sweep()
+  /// See parse_search_request(), parse_wear_request() and parse_optimisation_request().
+  /// @param key as of submit_sweep()
   nlohmann::json submit_study(StudyKind kind, const nlohmann::ordered_json& request,
                               const std::string& key = {});
   [[nodiscard]] std::optional<nlohmann::json> find_study(StudyKind kind, const std::string& id) const;
   [[nodiscard]] nlohmann::json list_studies(StudyKind kind, const PageQuery& query) const;
-  /// Flat rows: the limits of a search, the cycles of a bearing that is worn. @param query of the columns
-  /// that they have
+  /// Flat rows: the limits of a search, the cycles of a bearing that is worn, the candidates of an
+  /// optimisation. @param query of the columns that they have
   [[nodiscard]] std::optional<ResultTable> find_study_table(StudyKind kind, const std::string& id,
                                                             const ResultQuery& query = {}) const;
   std::optional<nlohmann::json> cancel_study(StudyKind kind, const std::string& id);
@@ -229,8 +227,8 @@ class Service {
   [[nodiscard]] StudyRunner& runner(StudyKind kind) const {
     return *runners_[static_cast<std::size_t>(kind)];
   }
-  /// Changes the jobs of a sweep while no study looks at them.
-  void change_sweep(const std::string& id, const std::function<void()>& change);
+  /// Changes the jobs of a sweep while no study, of the first kind or a later one, looks at them.
+  void change_sweep(const std::string& id, const std::function<void()>& change, std::size_t first_kind = 0);
   /// Lets studies go on after each change, until stop().
   void run_studies();
 
@@ -239,7 +237,7 @@ class Service {
   std::atomic<std::uint64_t> activity_ = 0;
   InFlightKeys keys_;
   std::unique_ptr<Store> store_;
-  std::array<std::unique_ptr<StudyRunner>, 2> runners_;  ///< by StudyKind
+  std::array<std::unique_ptr<StudyRunner>, kStudyKinds.size()> runners_;  ///< by StudyKind
   /// End before the store they work for; none before start()
   std::vector<std::unique_ptr<Executor>> executors_;
   std::mutex stop_mutex_;                                ///< guards the joining of study_thread_

@@ -11,7 +11,7 @@ namespace jobs {
 using nlohmann::json;
 
 json Service::submit_study(StudyKind kind, const nlohmann::ordered_json& request, const std::string& key) {
-  const char* const route = kind == StudyKind::kLimit ? "POST /v1/searches " : "POST /v1/wear-studies ";
+  const std::string route = "POST " + std::string(kind_info(kind).path) + " ";
   return answer_once(key, route + sha256_hex(request.dump()), [&](const IdempotentRequest& idempotency) {
     json begun = runner(kind).submit(request, idempotency);
     wake();
@@ -77,8 +77,10 @@ bool Service::delete_study(StudyKind kind, const std::string& id) {
   return sweep && delete_sweep(*sweep, id);
 }
 
-void Service::change_sweep(const std::string& id, const std::function<void()>& change) {
-  runner(StudyKind::kLimit).change_sweep(id, [&] { runner(StudyKind::kWear).change_sweep(id, change); });
+void Service::change_sweep(const std::string& id, const std::function<void()>& change,
+                           std::size_t first_kind) {
+  if (first_kind == runners_.size()) return change();
+  runners_[first_kind]->change_sweep(id, [&] { change_sweep(id, change, first_kind + 1); });
 }
 
 void Service::run_studies() {

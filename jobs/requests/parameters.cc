@@ -343,6 +343,13 @@ JobSpec to_job_spec(const json& completed_parameters) {
   return spec;
 }
 
+std::vector<engine::QuantityInfo> metric_table(const json& given) {
+  if (describes_linkage(given))
+    return engine::linkage_tables(*to_job_spec(fill_in_defaults(given)).linkage).metrics;
+  const auto table = engine::metric_table();
+  return {table.begin(), table.end()};
+}
+
 std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec) {
   return spec.linkage ? engine::linkage_tables(*spec.linkage).channels
                       : engine::channel_table(spec.parameters);

@@ -20,6 +20,9 @@ namespace jobs {
 /// The engine's view of completed parameters: their units become SI on this way only.
 [[nodiscard]] JobSpec to_job_spec(const nlohmann::json& completed_parameters);
 
+/// Metrics of a job. @param given  parameters whose values have no faults
+[[nodiscard]] std::vector<engine::QuantityInfo> metric_table(const nlohmann::json& given);
+
 /// The channels of the job's trajectory.
 [[nodiscard]] std::vector<engine::QuantityInfo> channel_table(const JobSpec& spec);
 

@@ -7,11 +7,11 @@
 #include <numeric>
 #include <string_view>
 
-#include "engine/simulate_linkage.h"
 #include "jobs/base/flat_json.h"
 #include "jobs/base/ids.h"
 #include "jobs/base/optional_json.h"
 #include "jobs/base/provenance.h"
+#include "jobs/base/study_kind.h"
 #include "jobs/base/time_text.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/requests/parameter_path.h"
@@ -52,7 +52,9 @@ json job_links(const JobRow& row) {
 
 json study_path(const std::optional<std::string>& id) {
   if (!id) return nullptr;
-  return (id->starts_with(kSearchPrefix) ? "/v1/searches/" : "/v1/wear-studies/") + *id;
+  const auto kind = std::ranges::find_if(
+      kStudyKinds, [&](const StudyKindInfo& one) { return id->starts_with(one.id_prefix); });
+  return std::string(kind->path) + "/" + *id;
 }
 
 json counts_json(const StateCounts& counts) {
@@ -89,14 +91,9 @@ std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
   const json request = stored_json(sweep.request);
   const json common = request.value("parameters", json::object());
   std::vector<std::string> keys;
-  const auto add = [&](const auto& table) {
-    for (const engine::QuantityInfo& metric : table)
-      if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
-  };
   const auto add_of = [&](const json& given) {
-    if (describes_linkage(given))
-      add(engine::linkage_tables(*to_job_spec(fill_in_defaults(given)).linkage).metrics);
-    else add(engine::metric_table());
+    for (const engine::QuantityInfo& metric : metric_table(given))
+      if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
   };
   bool every_case = true;
   for (const json& each : request.value("cases", json::array())) {

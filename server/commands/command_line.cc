@@ -32,6 +32,7 @@
 #include "server/commands/serve.h"
 #include "server/commands/service_token.h"
 #include "server/commands/simulate.h"
+#include "server/commands/optimise.h"
 #include "server/commands/sweep.h"
 #include "server/commands/validate.h"
 
@@ -88,9 +89,12 @@ void add_store_options(CLI::App& command, std::string& store, int& threads) {
   add_threads_option(command, threads);
 }
 
-CLI::App* add_sweep(CLI::App& app, SweepOptions& options) {
-  CLI::App* const command = app.add_subcommand("sweep", "Compute a sweep without a server");
-  command->add_option("file", options.file, "JSON file with the sweep request; - reads standard input")
+/// Command that computes a request without a server. @param what  "sweep", say
+CLI::App* add_request_command(CLI::App& app, const char* name, const char* help, const std::string& what,
+                              SweepOptions& options) {
+  CLI::App* const command = app.add_subcommand(name, help);
+  command->add_option("file", options.file,
+                      "JSON file with the " + what + " request; - reads standard input")
       ->required()
       ->type_name("FILE");
   add_store_options(*command, options.store, options.threads);
@@ -335,6 +339,7 @@ int run_command_line(int argc, char** argv) {
   app.fallthrough();  // before the commands, which take it over
   SimulateOptions simulate_options;
   SweepOptions sweep_options;
+  SweepOptions optimise_options;
   ServeOptions serve_options;
   PaperOptions paper_options;
   ExportOptions export_options;
@@ -345,7 +350,14 @@ int run_command_line(int argc, char** argv) {
   std::vector<Command> commands = add_remote_commands(app);
   describe(app, commands);
   commands.push_back({add_simulate(app, simulate_options), [&] { return simulate(simulate_options); }});
-  commands.push_back({add_sweep(app, sweep_options), [&] { return sweep(sweep_options); }});
+  commands.push_back({add_request_command(app, "sweep", "Compute a sweep without a server", "sweep",
+                                          sweep_options),
+                      [&] { return sweep(sweep_options); }});
+  commands.push_back({add_request_command(app, "optimise",
+                                          "Look for the parameters of the least or largest metrics, without "
+                                          "a server",
+                                          "optimisation", optimise_options),
+                      [&] { return optimise(optimise_options); }});
   add_validate(app);
   commands.push_back({add_paper(app, paper_options), [&] { return hold_against_paper(paper_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
@@ -355,7 +367,7 @@ int run_command_line(int argc, char** argv) {
   commands.push_back({add_completion(app, shell), [&] { return print_completion(app, shell); }});
   commands.push_back({app.add_subcommand("man", "Print the manual page: rpsup man | man -l -"),
                       [&] { return print_man_page(app); }});
-  for (const char* const name : {"simulate", "sweep", "serve", "check-cluster"})
+  for (const char* const name : {"simulate", "sweep", "optimise", "serve", "check-cluster"})
     add_numerics_option(*app.get_subcommand(name), numerics);
   try {
     std::vector<std::string> arguments = read_arguments(argc, argv);

@@ -46,29 +46,32 @@ int interrupt(jobs::Service& service, const std::string& id) {
   return kInterrupted;
 }
 
-/// That a file's name ends in; CSV for all others.
-TableFormat find_format(const std::string& path) {
-  if (path.ends_with(".json")) return TableFormat::kJson;
-  return path.ends_with(".ndjson") ? TableFormat::kNdjson : TableFormat::kCsv;
-}
-
 }  // namespace
 
-int sweep(const SweepOptions& options) {
-  if (options.results != "-") check_output_file("--results", options.results);
-  const auto request = read_json(options.file);
-  const EndSignals signals;
+jobs::ServiceOptions service_options_of(const SweepOptions& options) {
   jobs::ServiceOptions service_options;
   service_options.store = options.store;
   service_options.threads = options.threads;
   service_options.log = [](const std::string& message) {
     std::cerr << "rpsup: " << terminal_text(message) << '\n';
   };
-  jobs::Service service(service_options);
+  return service_options;
+}
+
+TableFormat format_of_file(const std::string& path) {
+  if (path.ends_with(".json")) return TableFormat::kJson;
+  return path.ends_with(".ndjson") ? TableFormat::kNdjson : TableFormat::kCsv;
+}
+
+int sweep(const SweepOptions& options) {
+  if (options.results != "-") check_output_file("--results", options.results);
+  const auto request = read_json(options.file);
+  const EndSignals signals;
+  jobs::Service service(service_options_of(options));
   const auto id = service.submit_sweep(request).at("id").get<std::string>();
   std::cerr << "sweep " << id << " in " << options.store << '\n';
   if (!follow(service, id, signals)) return interrupt(service, id);
-  write_text(options.results, to_text(*service.find_results(id), find_format(options.results)));
+  write_text(options.results, to_text(*service.find_results(id), format_of_file(options.results)));
   return service.find_sweep(id)->at("state") == "succeeded" ? kDone : kJobFailed;
 }
 

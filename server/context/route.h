@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,21 +13,21 @@ namespace server {
 /// Form of a route's answer: media type, and name of its schema in the OpenAPI document.
 struct AnswerForm {
   std::string_view media_type;
-  std::string_view schema;
+  std::string schema;
 };
 
 /// One route: method and pattern, handler, and entry of the OpenAPI document, which has no other source of
 /// routes.
 struct Route {
   std::string_view method;
-  std::string_view pattern;         ///< {id} stands for one segment for which is_id() holds
+  std::string pattern;              ///< {id} stands for one segment for which is_id() holds
   Response (*handler)(const RequestContext&);
-  std::string_view operation_id;
-  std::string_view tag;
-  std::string_view summary;
+  std::string operation_id;
+  std::string tag;
+  std::string summary;
   std::vector<std::string_view> query = {};    ///< ids in request_parameters()
   std::vector<std::string_view> headers = {};  ///< the same, of headers
-  std::string_view body = {};                  ///< schema of the request's JSON; empty: no body
+  std::string body = {};                       ///< schema of the request's JSON; empty: no body
   int success = 200;
   std::vector<AnswerForm> answers = {};        ///< forms of the answer to success; empty: without a body
   std::vector<int> bodiless = {};  ///< statuses of other answers without a body that are no problems

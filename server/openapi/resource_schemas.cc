@@ -10,6 +10,7 @@
 #include "server/openapi/analysis_schemas.h"
 #include "server/openapi/quantity_schemas.h"
 #include "server/openapi/search_schemas.h"
+#include "server/openapi/optimisation_schemas.h"
 #include "server/openapi/wear_schemas.h"
 
 namespace server::openapi {
@@ -200,6 +201,7 @@ Json make_resource_schemas() {
           {"Binary", Json::object()}};
   schemas.update(make_search_schemas());
   schemas.update(make_wear_schemas());
+  schemas.update(make_optimisation_schemas());
   schemas.update(make_analysis_schemas());
   return schemas;
 }

@@ -68,92 +68,90 @@ std::vector<Route> make_sweep_routes() {
   };
 }
 
-std::vector<Route> make_search_routes() {
+/// Words by which the document tells one kind of study from another.
+struct StudyWords {
+  std::string path, tag, schema, rows;
+  std::string noun, nouns;                      ///< in an operation's id: "Search", "Searches"
+  std::string rows_id;                          ///< operation's id of its table
+  std::string submit, list, get, erase, table;  ///< summaries
+  std::string name;                             ///< with its article: "a search"
+};
+
+template <typename Routes>
+std::vector<Route> make_study_routes(const StudyWords& words) {
+  const std::string one = words.path + "/{id}";
   return {
-      {.method = "POST", .pattern = "/v1/searches", .handler = SearchRoutes::post,
-       .operation_id = "submitSearch", .tag = "searches",
-       .summary = "Search the largest value of a parameter for which a metric stays within a bound, for "
-                  "every combination of the axes",
-       .headers = {"idempotency_key", "prefer"}, .body = "SearchRequest", .success = 201,
-       .answers = {{kJson, "Search"}}, .problems = {409, 422, 429}},
-      {.method = "GET", .pattern = "/v1/searches", .handler = SearchRoutes::list,
-       .operation_id = "listSearches", .tag = "searches", .summary = "Searches, the newest first",
-       .query = {"search_state", "limit", "cursor", "fields"}, .answers = {{kJson, "SearchPage"}},
-       .problems = {422}},
-      {.method = "GET", .pattern = "/v1/searches/{id}", .handler = SearchRoutes::get,
-       .operation_id = "getSearch", .tag = "searches",
-       .summary = "State, progress, limits and evaluations of a search",
-       .headers = {"prefer", "if_none_match"}, .answers = {{kJson, "Search"}}, .bodiless = {304},
-       .problems = {404, 422}},
-      {.method = "DELETE", .pattern = "/v1/searches/{id}", .handler = SearchRoutes::erase,
-       .operation_id = "deleteSearch", .tag = "searches",
-       .summary = "Delete a search that has ended, with the sweep of its evaluations", .success = 204,
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/searches/{id}/results", .handler = SearchRoutes::get_results,
-       .operation_id = "getLimits", .tag = "searches",
-       .summary = "Table of limits: a row for each combination of the axes, with the limit and its band",
+      {.method = "POST", .pattern = words.path, .handler = Routes::post,
+       .operation_id = "submit" + words.noun, .tag = words.tag, .summary = words.submit,
+       .headers = {"idempotency_key", "prefer"}, .body = words.schema + "Request", .success = 201,
+       .answers = {{kJson, words.schema}}, .problems = {409, 422, 429}},
+      {.method = "GET", .pattern = words.path, .handler = Routes::list, .operation_id = "list" + words.nouns,
+       .tag = words.tag, .summary = words.list, .query = {"search_state", "limit", "cursor", "fields"},
+       .answers = {{kJson, words.schema + "Page"}}, .problems = {422}},
+      {.method = "GET", .pattern = one, .handler = Routes::get, .operation_id = "get" + words.noun,
+       .tag = words.tag, .summary = words.get, .headers = {"prefer", "if_none_match"},
+       .answers = {{kJson, words.schema}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "DELETE", .pattern = one, .handler = Routes::erase, .operation_id = "delete" + words.noun,
+       .tag = words.tag, .summary = words.erase, .success = 204, .problems = {404, 409, 422}},
+      {.method = "GET", .pattern = one + "/results", .handler = Routes::get_results,
+       .operation_id = words.rows_id, .tag = words.tag, .summary = words.table,
        .query = {"row_format", "fields", "order_by", "row_limit", "columns"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "LimitRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
+       .answers = {{kJson, words.rows}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
        .problems = {404, 422}},
-      {.method = "GET", .pattern = "/v1/searches/{id}/events", .handler = SearchRoutes::get_events,
-       .operation_id = "followSearch", .tag = "searches",
+      {.method = "GET", .pattern = one + "/events", .handler = Routes::get_events,
+       .operation_id = "follow" + words.noun, .tag = words.tag,
        .summary = "Server-sent events: job, progress and, at the end, done. 204: all events have been sent, "
                   "do not reconnect",
        .headers = {"last_event_id"}, .answers = {{"text/event-stream", "Text"}}, .bodiless = {204},
        .problems = {404, 422}},
-      {.method = "POST", .pattern = "/v1/searches/{id}/cancel", .handler = SearchRoutes::cancel,
-       .operation_id = "cancelSearch", .tag = "searches", .summary = "Cancel a search; its evaluations stay",
-       .answers = {{kJson, "Search"}}, .problems = {404, 409, 422}},
-      {.method = "POST", .pattern = "/v1/searches/{id}/retry", .handler = SearchRoutes::retry,
-       .operation_id = "retrySearch", .tag = "searches",
-       .summary = "Queue the failed and cancelled jobs of a search again, and continue",
-       .answers = {{kJson, "Search"}}, .problems = {404, 409, 422, 429}},
+      {.method = "POST", .pattern = one + "/cancel", .handler = Routes::cancel,
+       .operation_id = "cancel" + words.noun, .tag = words.tag,
+       .summary = "Cancel " + words.name + "; its computed jobs stay", .answers = {{kJson, words.schema}},
+       .problems = {404, 409, 422}},
+      {.method = "POST", .pattern = one + "/retry", .handler = Routes::retry,
+       .operation_id = "retry" + words.noun, .tag = words.tag,
+       .summary = "Queue the failed and cancelled jobs of " + words.name + " again, and continue",
+       .answers = {{kJson, words.schema}}, .problems = {404, 409, 422, 429}},
   };
 }
 
+std::vector<Route> make_search_routes() {
+  return make_study_routes<SearchRoutes>(
+      {.path = "/v1/searches", .tag = "searches", .schema = "Search", .rows = "LimitRows", .noun = "Search",
+       .nouns = "Searches", .rows_id = "getLimits",
+       .submit = "Search the largest value of a parameter for which a metric stays within a bound, for every "
+                 "combination of the axes",
+       .list = "Searches, the newest first", .get = "State, progress, limits and evaluations of a search",
+       .erase = "Delete a search that has ended, with the sweep of its evaluations",
+       .table = "Table of limits: a row for each combination of the axes, with the limit and its band",
+       .name = "a search"});
+}
+
 std::vector<Route> make_wear_routes() {
-  return {
-      {.method = "POST", .pattern = "/v1/wear-studies", .handler = WearRoutes::post,
-       .operation_id = "submitWearStudy", .tag = "wear-studies",
-       .summary = "Submit a wear study: cycles of simulation and wear, each with the bore that the cycle "
-                  "before has left",
-       .headers = {"idempotency_key", "prefer"}, .body = "WearStudyRequest", .success = 201,
-       .answers = {{kJson, "WearStudy"}}, .problems = {409, 422, 429}},
-      {.method = "GET", .pattern = "/v1/wear-studies", .handler = WearRoutes::list,
-       .operation_id = "listWearStudies", .tag = "wear-studies", .summary = "Wear studies, the newest first",
-       .query = {"search_state", "limit", "cursor", "fields"}, .answers = {{kJson, "WearStudyPage"}},
-       .problems = {422}},
-      {.method = "GET", .pattern = "/v1/wear-studies/{id}", .handler = WearRoutes::get,
-       .operation_id = "getWearStudy", .tag = "wear-studies",
-       .summary = "State and progress of a wear study, and the bore after each step",
-       .headers = {"prefer", "if_none_match"}, .answers = {{kJson, "WearStudy"}}, .bodiless = {304},
-       .problems = {404, 422}},
-      {.method = "DELETE", .pattern = "/v1/wear-studies/{id}", .handler = WearRoutes::erase,
-       .operation_id = "deleteWearStudy", .tag = "wear-studies",
-       .summary = "Delete a wear study that has ended, with the sweep of its jobs", .success = 204,
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/wear-studies/{id}/results",
-       .handler = WearRoutes::get_results, .operation_id = "getWearCycles", .tag = "wear-studies",
-       .summary = "Table of cycles: a row for each, with time, maximum depth, rate, and every metric of its "
-                  "job",
-       .query = {"row_format", "fields", "order_by", "row_limit", "columns"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "WearCycleRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
-       .problems = {404, 422}},
-      {.method = "GET", .pattern = "/v1/wear-studies/{id}/events", .handler = WearRoutes::get_events,
-       .operation_id = "followWearStudy", .tag = "wear-studies",
-       .summary = "Server-sent events: job, progress and, at the end, done. 204: all events have been sent, "
-                  "do not reconnect",
-       .headers = {"last_event_id"}, .answers = {{"text/event-stream", "Text"}}, .bodiless = {204},
-       .problems = {404, 422}},
-      {.method = "POST", .pattern = "/v1/wear-studies/{id}/cancel", .handler = WearRoutes::cancel,
-       .operation_id = "cancelWearStudy", .tag = "wear-studies",
-       .summary = "Cancel a wear study; its computed cycles stay", .answers = {{kJson, "WearStudy"}},
-       .problems = {404, 409, 422}},
-      {.method = "POST", .pattern = "/v1/wear-studies/{id}/retry", .handler = WearRoutes::retry,
-       .operation_id = "retryWearStudy", .tag = "wear-studies",
-       .summary = "Queue the failed and cancelled jobs of a wear study again, and continue",
-       .answers = {{kJson, "WearStudy"}}, .problems = {404, 409, 422, 429}},
-  };
+  return make_study_routes<WearRoutes>(
+      {.path = "/v1/wear-studies", .tag = "wear-studies", .schema = "WearStudy", .rows = "WearCycleRows",
+       .noun = "WearStudy", .nouns = "WearStudies", .rows_id = "getWearCycles",
+       .submit = "Submit a wear study: cycles of simulation and wear, each with the bore that the cycle "
+                 "before has left",
+       .list = "Wear studies, the newest first",
+       .get = "State and progress of a wear study, and the bore after each step",
+       .erase = "Delete a wear study that has ended, with the sweep of its jobs",
+       .table = "Table of cycles: a row for each, with time, maximum depth, rate, and every metric of its "
+                "job",
+       .name = "a wear study"});
+}
+
+std::vector<Route> make_optimisation_routes() {
+  return make_study_routes<OptimisationRoutes>(
+      {.path = "/v1/optimisations", .tag = "optimisations", .schema = "Optimisation", .rows = "CandidateRows",
+       .noun = "Optimisation", .nouns = "Optimisations", .rows_id = "getCandidates",
+       .submit = "Look for the values of parameters for which metrics are least or largest, within bounds on "
+                 "other metrics",
+       .list = "Optimisations, the newest first",
+       .get = "State and progress of an optimisation, and its best candidates",
+       .erase = "Delete an optimisation that has ended, with the sweep of its candidates",
+       .table = "Table of candidates: a row for each, with its values, objectives and bounds",
+       .name = "an optimisation"});
 }
 
 std::vector<Route> make_analysis_routes() {
@@ -292,6 +290,7 @@ std::vector<Route> make_other_routes() {
 std::vector<Route> make_route_table() {
   std::vector<Route> table;
   for (const auto& part : {make_sweep_routes(), make_search_routes(), make_wear_routes(),
+                           make_optimisation_routes(),
                            make_analysis_routes(), make_job_routes(), make_other_routes()}) {
     table.insert(table.end(), part.begin(), part.end());
   }

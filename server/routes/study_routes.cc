@@ -22,24 +22,13 @@ namespace {
 
 using jobs::StudyKind;
 
-/// Name that users know a kind of study by, and path of its resources.
-struct KindInfo {
-  const char* name;
-  const char* path;
-};
-
-constexpr KindInfo kind_info(StudyKind kind) {
-  return kind == StudyKind::kLimit ? KindInfo{"search", "/v1/searches/"}
-                                   : KindInfo{"wear study", "/v1/wear-studies/"};
-}
-
 HttpError no_such(StudyKind kind, const std::string& id) {
-  return {404, std::string("there is no ") + kind_info(kind).name + " " + id};
+  return {404, "there is no " + std::string(kind_info(kind).name) + " " + id};
 }
 
 Resource study_resource(StudyKind kind, const RequestContext& context) {
   jobs::Service& service = context.service;
-  return {.path = kind_info(kind).path,
+  return {.path = std::string(kind_info(kind).path) + "/",
           .find = [&service, kind](const std::string& id) { return service.find_study(kind, id); },
           .wait_for =
               [&service, kind](const std::string& id, std::chrono::seconds at_most) {
@@ -87,7 +76,7 @@ Response StudyRoutes<kKind>::get_results(const RequestContext& context) {
   const auto table =
       query.check_and([&] { return context.service.find_study_table(kKind, context.id, wanted); });
   if (!table) throw no_such(kKind, context.id);
-  const std::string name = (kKind == StudyKind::kLimit ? "search-" : "wear-study-") + context.id;
+  const std::string name = std::string(kind_info(kKind).file_name) + "-" + context.id;
   return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), name));
 }
 
@@ -115,5 +104,6 @@ Response StudyRoutes<kKind>::retry(const RequestContext& context) {
 
 template struct StudyRoutes<StudyKind::kLimit>;
 template struct StudyRoutes<StudyKind::kWear>;
+template struct StudyRoutes<StudyKind::kOptimisation>;
 
 }  // namespace server

@@ -6,7 +6,7 @@
 
 namespace server {
 
-/// Routes of one kind of study, below /v1/searches or /v1/wear-studies.
+/// Routes of one kind of study, below the path of jobs::kind_info().
 template <jobs::StudyKind kKind>
 struct StudyRoutes {
   static Response post(const RequestContext& context);
@@ -21,5 +21,6 @@ struct StudyRoutes {
 
 using SearchRoutes = StudyRoutes<jobs::StudyKind::kLimit>;
 using WearRoutes = StudyRoutes<jobs::StudyKind::kWear>;
+using OptimisationRoutes = StudyRoutes<jobs::StudyKind::kOptimisation>;
 
 }  // namespace server

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/optimisation/optimisation_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "jobs/parameters/parameter_table.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/requests/axis.h"
+#include "jobs/requests/parameter_path.h"
+#include "jobs/requests/parameters.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+/// Keys that an optimisation has in common with the sweep of its jobs.
+constexpr std::array<std::string_view, 7> kCommonKeys{"name",  "parameters", "sweep",   "replicates",
+                                                      "reuse", "priority",   "executor"};
+/// Steps between the ends of a span that its decimals tell apart.
+constexpr double kSteps = 1e6;
+
+/// Reader of one request; a member function a part of it.
+class OptimisationParser {
+ public:
+  OptimisationParser(const ordered_json& request, std::size_t max_jobs)
+      : request_(request), max_jobs_(max_jobs) {}
+
+  OptimisationRequest parse() {
+    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
+    check_keys();
+    read_common();
+    read_variables();
+    read_objectives();
+    read_bounds();
+    read_numbers();
+    check_size();
+    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    return std::move(made_);
+  }
+
+ private:
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
+
+  /// Adds a fault unless the text is empty. @returns whether it is
+  bool is_right(const std::string& pointer, std::string detail) {
+    const bool right = detail.empty();
+    if (!right) fault(pointer, std::move(detail));
+    return right;
+  }
+
+  template <std::size_t n>
+  void check_keys_of(const json& given, const std::string& pointer,
+                     const std::array<std::string_view, n>& keys) {
+    for (const auto& [key, value] : given.items()) {
+      if (std::ranges::find(keys, key) == keys.end())
+        fault(pointer + pointer_token(key), describe_unknown_key(key, keys));
+    }
+  }
+
+  void check_keys() { check_keys_of(json(request_), "", kOptimisationRequestKeys); }
+
+  void read_common() {
+    ordered_json common = ordered_json::object();
+    for (const std::string_view key : kCommonKeys) {
+      if (request_.contains(key)) common[std::string(key)] = request_.at(key);
+    }
+    try {
+      made_.common = parse_sweep_request(common, max_jobs_);
+      for (const engine::QuantityInfo& metric : metric_table(made_.common.parameters))
+        metrics_.push_back(metric.key);
+    } catch (const InvalidRequest& invalid) {
+      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+    }
+  }
+
+  void read_variables() {
+    if (!request_.contains("over") || !request_.at("over").is_object() || request_.at("over").empty())
+      return fault("/over",
+                   "must be an object of parameters, {\"rod_length_m\": {\"from\": 0.1, \"to\": 0.3}}, say");
+    if (request_.at("over").size() > kMostVariables)
+      return fault("/over", "has more than " + std::to_string(kMostVariables) + " parameters");
+    for (const auto& [path, span] : request_.at("over").items())
+      read_variable(path, json(span), "/over" + pointer_token(path));
+  }
+
+  void read_variable(const std::string& path, const json& given, const std::string& pointer) {
+    if (!is_known_path(path, pointer, faults_)) return;
+    if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
+    if (!check_place(path, pointer)) return;
+    if (!given.is_object()) return fault(pointer, "must be an object of from, to, scale and start");
+    constexpr std::array<std::string_view, 1> kOthers{"start"};
+    const std::size_t before = faults_.size();
+    const auto span = read_span(given, kOthers, pointer, faults_);
+    if (!span || faults_.size() > before) return;
+    if (span->from >= span->to) return fault(pointer + "/to", "must be above from");
+    for (const char* const end : {"from", "to", "start"}) {
+      if (given.contains(end)) check_value(path, given.at(end), pointer + "/" + end);
+    }
+    if (faults_.size() > before) return;
+    const ParameterInfo* const info = find_parameter(path);
+    Variable variable{
+        .path = path, .span = *span, .integer = info != nullptr && info->kind == ParameterKind::kInteger};
+    if (given.contains("start")) {
+      variable.start = given.at("start").get<double>();
+      if (*variable.start < span->from || *variable.start > span->to)
+        return fault(pointer + "/start", "must be between from and to");
+    }
+    made_.variables.push_back(std::move(variable));
+  }
+
+  /// A parameter has one place: over, sweep or parameters; a number of a description stands in one.
+  bool check_place(const std::string& path, const std::string& pointer) {
+    const std::size_t before = faults_.size();
+    const auto& swept = made_.common.swept;
+    if (std::ranges::find(swept, path) != swept.end()) fault(pointer, "is an axis of sweep, too");
+    if (request_.contains("parameters")) {
+      const auto fixed = paths_of(request_.at("parameters"));
+      if (std::ranges::find(fixed, path) != fixed.end()) fault(pointer, "stands in parameters, too");
+    }
+    if (is_path_in_description(path))
+      is_right(pointer, describe_description_path_fault(made_.common.parameters, path));
+    return faults_.size() == before;
+  }
+
+  void check_value(const std::string& path, const json& value, const std::string& pointer) {
+    if (!value.is_number()) return fault(pointer, "must be a number");
+    for (const Fault& found : find_path_faults(path, value)) fault(pointer, found.detail);
+  }
+
+  void read_objectives() {
+    const json given = request_.value("objectives", ordered_json());
+    if (!given.is_array() || given.empty() || given.size() > kMostObjectives)
+      return fault("/objectives", "must be a list of 1 to " + std::to_string(kMostObjectives) +
+                                      " objects, {\"metric\": \"peak_slider_acceleration_m_s2\", \"goal\": "
+                                      "\"minimise\"}, say");
+    std::set<std::string> told;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const std::string pointer = "/objectives/" + std::to_string(k);
+      const std::size_t before = faults_.size();
+      constexpr std::array<std::string_view, 3> kKeys{"metric", "goal", "quantile"};
+      Objective objective{.metric = read_metric(given[k], pointer, kKeys)};
+      if (faults_.size() > before) continue;
+      if (!told.insert(objective.metric).second) fault(pointer + "/metric", "is an objective already");
+      const json goal = given[k].value("goal", json("minimise"));
+      if (goal != "minimise" && goal != "maximise")
+        fault(pointer + "/goal", "must be \"minimise\" or \"maximise\"");
+      objective.goal = goal == "maximise" ? Goal::kMaximise : Goal::kMinimise;
+      objective.quantile = read_quantile(given[k], pointer, objective.goal == Goal::kMinimise ? 1.0 : 0.0);
+      made_.objectives.push_back(std::move(objective));
+    }
+    if (made_.objectives.size() > 1) made_.method = PopulationMethod::kNsga2;
+  }
+
+  template <std::size_t n>
+  std::string read_metric(const json& given, const std::string& pointer,
+                          const std::array<std::string_view, n>& keys) {
+    if (!given.is_object()) {
+      fault(pointer, "must be an object with \"metric\"");
+      return {};
+    }
+    check_keys_of(given, pointer, keys);
+    const json metric = given.value("metric", json());
+    if (!metric.is_string()) {
+      fault(pointer + "/metric", "must be the name of a metric");
+      return {};
+    }
+    const std::string name = metric.get<std::string>();
+    const std::vector<std::string_view> known(metrics_.begin(), metrics_.end());
+    if (!known.empty() && std::ranges::find(known, name) == known.end())
+      fault(pointer + "/metric", "\"" + name + "\": " + describe_unknown_key(name, known));
+    return name;
+  }
+
+  double read_quantile(const json& given, const std::string& pointer, double worst) {
+    if (!given.contains("quantile")) return worst;
+    constexpr Range kQuantile{.minimum = 0.0, .maximum = 1.0};
+    const bool right =
+        is_right(pointer + "/quantile", describe_number_fault(kQuantile, "", given.at("quantile")));
+    return right ? given.at("quantile").get<double>() : worst;
+  }
+
+  void read_bounds() {
+    if (!request_.contains("bounds")) return;
+    const json given = request_.at("bounds");
+    if (!given.is_array())
+      return fault(
+          "/bounds",
+          "must be a list of objects, {\"metric\": \"peak_contact_force_n\", \"maximum\": 500}, say");
+    for (std::size_t k = 0; k < given.size(); ++k) read_bound(given[k], "/bounds/" + std::to_string(k));
+  }
+
+  void read_bound(const json& given, const std::string& pointer) {
+    const std::size_t before = faults_.size();
+    constexpr std::array<std::string_view, 4> kKeys{"metric", "minimum", "maximum", "quantile"};
+    MetricBound bound{.metric = read_metric(given, pointer, kKeys)};
+    if (faults_.size() > before) return;
+    if (given.contains("minimum") == given.contains("maximum"))
+      return fault(pointer, "must have either minimum or maximum; two bounds are two objects");
+    const char* const end = given.contains("maximum") ? "maximum" : "minimum";
+    if (!is_right(pointer + "/" + end, describe_number_fault({}, "", given.at(end)))) return;
+    (given.contains("maximum") ? bound.maximum : bound.minimum) = given.at(end).get<double>();
+    bound.quantile = read_quantile(given, pointer, given.contains("maximum") ? 1.0 : 0.0);
+    made_.bounds.push_back(std::move(bound));
+  }
+
+  std::uint64_t read_integer(const char* key, const Range& range, std::uint64_t otherwise) {
+    if (!request_.contains(key)) return otherwise;
+    const json given = request_.at(key);
+    return is_right(std::string("/") + key, describe_integer_fault(range, given)) ? given.get<std::uint64_t>()
+                                                                                  : otherwise;
+  }
+
+  void read_numbers() {
+    const std::size_t n = std::max<std::size_t>(1, made_.variables.size());
+    made_.starts = read_integer("starts", kStartsRange, made_.method == PopulationMethod::kCmaEs ? 2 : 1);
+    made_.population = read_integer("population", kPopulationRange, default_population(made_.method, n));
+    made_.seed = read_integer("seed", kOptimiserSeedRange, 1);
+    made_.budget = read_integer("budget", kBudgetRange, default_budget(n));
+    if (made_.method == PopulationMethod::kNsga2 && (made_.population % 4 != 0 || made_.population < 8))
+      fault("/population", "must be a multiple of 4, and at least 8, where there are several objectives");
+    if (made_.budget < made_.starts * made_.population)
+      fault("/budget", "must be at least " + std::to_string(made_.starts * made_.population) +
+                           ", one generation of each start");
+  }
+
+  /// Candidates that a search usually needs, as far as a usual number of jobs goes. The same for every
+  /// service: a study that goes on reads its request again.
+  [[nodiscard]] std::size_t default_budget(std::size_t n) const {
+    const std::size_t usual =
+        made_.method == PopulationMethod::kCmaEs ? made_.starts * (50 + 100 * n) : 25 * made_.population;
+    constexpr std::size_t kUsualJobs = 10'000;
+    const std::size_t allowed = kUsualJobs / std::max<std::size_t>(1, jobs_of_a_candidate(made_));
+    return std::max(made_.starts * made_.population, std::min(usual, allowed));
+  }
+
+  void check_size() {
+    std::uint64_t jobs = 0;
+    if (faults_.empty() &&
+        (__builtin_mul_overflow(made_.budget, jobs_of_a_candidate(made_), &jobs) || jobs > max_jobs_))
+      fault("/budget", "makes " + std::to_string(jobs) + " jobs, " +
+                           std::to_string(jobs_of_a_candidate(made_)) + " for each candidate; at most " +
+                           std::to_string(max_jobs_) + " are allowed");
+  }
+
+  const ordered_json& request_;
+  std::size_t max_jobs_;
+  OptimisationRequest made_;
+  std::vector<std::string> metrics_;  ///< of the linkage; empty if it has faults
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+OptimisationRequest parse_optimisation_request(const ordered_json& request, std::size_t max_jobs) {
+  return OptimisationParser(request, max_jobs).parse();
+}
+
+std::size_t jobs_of_a_candidate(const OptimisationRequest& request) {
+  std::size_t jobs = request.common.replicates.count;
+  for (const Axis& axis : request.common.axes) jobs *= axis.values.size();
+  return jobs;
+}
+
+std::vector<double> candidate_at(const OptimisationRequest& request, const UnitPoint& point) {
+  std::vector<double> candidate;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const Variable& variable = request.variables[i];
+    const double value = decimal_between(variable.span, point[i], kSteps);
+    candidate.push_back(variable.integer ? std::round(value) : value);
+  }
+  return candidate;
+}
+
+std::optional<UnitPoint> start_of(const OptimisationRequest& request) {
+  UnitPoint point;
+  bool given = false;
+  for (const Variable& variable : request.variables) {
+    const auto& [from, to, logarithmic] = variable.span;
+    given |= variable.start.has_value();
+    if (!variable.start) point.push_back(0.5);
+    else if (logarithmic) point.push_back(std::log(*variable.start / from) / std::log(to / from));
+    else point.push_back((*variable.start - from) / (to - from));
+  }
+  return given ? std::optional(point) : std::nullopt;
+}
+
+ordered_json case_of(const OptimisationRequest& request, const std::vector<double>& candidate) {
+  ordered_json made = ordered_json::object();
+  for (std::size_t i = 0; i < candidate.size(); ++i) {
+    const Variable& variable = request.variables[i];
+    const json value = variable.integer ? json(std::llround(candidate[i])) : json(candidate[i]);
+    if (is_path_in_description(variable.path)) {
+      made[variable.path] = value;
+      continue;
+    }
+    json alone = json::object();
+    set_at_path(alone, variable.path, value);
+    made.merge_patch(ordered_json(alone));
+  }
+  return made;
+}
+
+ordered_json common_sweep_of(const ordered_json& request) {
+  ordered_json sweep = ordered_json::object();
+  for (const std::string_view key : kCommonKeys) {
+    if (request.contains(key)) sweep[std::string(key)] = request.at(key);
+  }
+  return sweep;
+}
+
+}  // namespace jobs

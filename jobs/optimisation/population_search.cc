@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/optimisation/population_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <pagmo/algorithms/cmaes.hpp>
+#include <pagmo/algorithms/nsga2.hpp>
+#include <pagmo/population.hpp>
+#include <pagmo/problem.hpp>
+#include <pagmo/types.hpp>
+#include <pagmo/utils/multi_objective.hpp>
+
+namespace jobs {
+namespace {
+
+/// Evaluations of one generation. The algorithms of pagmo make all points of a generation before they look at
+/// the fitness of one, so that unknown points can be gathered in one call.
+struct Generation {
+  const PopulationSearch::FindFitness* find_fitness = nullptr;
+  std::size_t evaluated = 0;
+  std::vector<UnitPoint> missing{};
+};
+
+/// Problem as pagmo wants it.
+class UnitProblem {
+ public:
+  UnitProblem() = default;  // pagmo asks for one
+  UnitProblem(std::size_t dimensions, std::size_t objectives, Generation* generation)
+      : dimensions_(dimensions), objectives_(objectives), generation_(generation) {}
+
+  [[nodiscard]] pagmo::vector_double fitness(const pagmo::vector_double& point) const {
+    ++generation_->evaluated;
+    if (auto known = (*generation_->find_fitness)(point)) return *known;
+    generation_->missing.push_back(point);
+    return pagmo::vector_double(objectives_, 0.0);
+  }
+  [[nodiscard]] std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
+    return {pagmo::vector_double(dimensions_, 0.0), pagmo::vector_double(dimensions_, 1.0)};
+  }
+  [[nodiscard]] pagmo::vector_double::size_type get_nobj() const { return objectives_; }
+
+ private:
+  std::size_t dimensions_ = 1;
+  std::size_t objectives_ = 1;
+  Generation* generation_ = nullptr;
+};
+
+using Algorithm = std::variant<pagmo::cmaes, pagmo::nsga2>;
+
+Algorithm make_algorithm(const PopulationOptions& options) {
+  constexpr double kDefault = -1.0;     // pagmo's own choice
+  constexpr double kInitialStep = 0.3;  // of the unit cube, as Hansen advises
+  constexpr double kNever = 0.0;        // has_converged() judges
+  if (options.method == PopulationMethod::kCmaEs) {
+    constexpr double kSmallestStep = 1e-9;
+    return pagmo::cmaes(1, kDefault, kDefault, kDefault, kDefault, kInitialStep, kNever, kSmallestStep, true,
+                        true, options.seed);
+  }
+  const double mutation = 1.0 / static_cast<double>(options.dimensions);
+  return pagmo::nsga2(1, 0.95, 10.0, mutation, 20.0, options.seed);  // as the paper has them
+}
+
+/// How far a population has come.
+struct Summary {
+  std::vector<double> values;  ///< least one and mean of the first front, for each objective
+  std::vector<double> scales;  ///< by which their changes are judged
+};
+
+Summary summarise(const pagmo::population& population) {
+  const auto& fitness = population.get_f();
+  const auto front = fitness.front().size() == 1
+                         ? std::vector<pagmo::pop_size_t>{population.best_idx()}
+                         : std::get<0>(pagmo::fast_non_dominated_sorting(fitness)).front();
+  Summary summary;
+  for (std::size_t k = 0; k < fitness.front().size(); ++k) {
+    double least = fitness[front.front()][k];
+    double most = least;
+    double sum = 0.0;
+    for (const auto member : front) {
+      least = std::min(least, fitness[member][k]);
+      most = std::max(most, fitness[member][k]);
+      sum += fitness[member][k];
+    }
+    const double scale = std::max(std::abs(least), most - least);
+    summary.values.insert(summary.values.end(), {least, sum / static_cast<double>(front.size())});
+    summary.scales.insert(summary.scales.end(), {scale, scale});
+  }
+  return summary;
+}
+
+}  // namespace
+
+std::size_t default_population(PopulationMethod method, std::size_t dimensions) {
+  if (method == PopulationMethod::kNsga2) return 40;
+  // Hansen's 4 + 3 ln n, even since two are computed at a time.
+  const auto usual = static_cast<std::size_t>(4.0 + 3.0 * std::log(static_cast<double>(dimensions)));
+  return std::max<std::size_t>(6, usual + usual % 2);
+}
+
+class PopulationSearch::State {
+ public:
+  explicit State(const PopulationOptions& options) : options_(options), algorithm_(make_algorithm(options)) {}
+
+  std::vector<UnitPoint> ask(const FindFitness& find_fitness) {
+    generation_.find_fitness = &find_fitness;
+    while (!converged_) {
+      generation_.evaluated = 0;
+      generation_.missing.clear();
+      Algorithm algorithm = algorithm_;  // an incomplete generation is made again from the same state
+      pagmo::population next = population_ ? evolve(algorithm) : make_population();
+      if (!generation_.missing.empty()) return generation_.missing;
+      if (population_) ++generations_;
+      converged_ = generation_.evaluated == 0;
+      population_ = std::move(next);
+      algorithm_ = std::move(algorithm);
+      history_.push_back(summarise(*population_));
+      converged_ = converged_ || has_converged();
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::size_t generations() const { return generations_; }
+
+ private:
+  pagmo::population evolve(const Algorithm& algorithm) {
+    return std::visit([&](const auto& chosen) { return chosen.evolve(*population_); }, algorithm);
+  }
+
+  pagmo::population make_population() {
+    pagmo::population made(
+        pagmo::problem(UnitProblem(options_.dimensions, options_.objectives, &generation_)),
+        options_.start ? options_.population - 1 : options_.population, options_.seed);
+    if (options_.start) made.push_back(*options_.start);
+    return made;
+  }
+
+  /// Whether the last generations have gained too little: as many as Hansen's criterion of equal function
+  /// values takes.
+  [[nodiscard]] bool has_converged() const {
+    const auto patience =
+        static_cast<std::size_t>(10.0 + std::ceil(30.0 * static_cast<double>(options_.dimensions) /
+                                                  static_cast<double>(options_.population)));
+    if (history_.size() <= patience) return false;
+    const Summary& before = history_[history_.size() - 1 - patience];
+    const Summary& now = history_.back();
+    for (std::size_t k = 0; k < now.values.size(); ++k) {
+      if (std::abs(before.values[k] - now.values[k]) > options_.tolerance * now.scales[k]) return false;
+    }
+    return true;
+  }
+
+  const PopulationOptions options_;
+  Generation generation_;
+  Algorithm algorithm_;
+  std::optional<pagmo::population> population_;  ///< the last complete one
+  std::size_t generations_ = 0;
+  std::vector<Summary> history_;  ///< of all complete generations
+  bool converged_ = false;
+};
+
+PopulationSearch::PopulationSearch(const PopulationOptions& options)
+    : state_(std::make_unique<State>(options)) {}
+PopulationSearch::~PopulationSearch() = default;
+PopulationSearch::PopulationSearch(PopulationSearch&& other) noexcept = default;
+PopulationSearch& PopulationSearch::operator=(PopulationSearch&& other) noexcept = default;
+
+std::vector<UnitPoint> PopulationSearch::ask(const FindFitness& find_fitness) {
+  return state_->ask(find_fitness);
+}
+
+std::size_t PopulationSearch::generations() const { return state_->generations(); }
+
+}  // namespace jobs
