@@ -89,7 +89,7 @@ Json make_answer(const Route& route, int status) {
 Json make_success(const Route& route) {
   Json answer = make_answer(route, route.success);
   for (const AnswerForm& form : route.answers)
-    answer["content"][std::string(form.media_type)]["schema"] = ref(form.schema);
+    answer["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);  // not std::ref
   return answer;
 }
 
@@ -103,7 +103,7 @@ Json make_operation(const Route& route) {
   }
   if (!route.body.empty()) {
     operation["requestBody"] = {{"required", true},
-                                {"content", {{"application/json", {{"schema", ref(route.body)}}}}}};
+                                {"content", {{"application/json", {{"schema", openapi::ref(route.body)}}}}}};
   }
   operation["responses"][std::to_string(route.success)] = make_success(route);
   for (const int status : route.bodiless)
