@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/measurements/check_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "jobs/measurements/channel_unit.h"
+#include "jobs/measurements/measurement.h"
+#include "jobs/parameters/range.h"
+#include "jobs/requests/sweep_request.h"
+
+namespace jobs {
+namespace {
+
+constexpr std::size_t kLongestChannelName = 200;  // bytes
+
+bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+}  // namespace
+
+std::string describe_measurement_name_fault(const std::string& name) {
+  return name.size() <= kLongestName
+             ? ""
+             : "must be a string of at most " + std::to_string(kLongestName) + " bytes";
+}
+
+std::string describe_channel_name_fault(std::string_view name) {
+  if (name == kTimeColumn || name == kTrajectoryTime) return "is the name of the time, not of a channel";
+  if (name.empty() || name.size() > kLongestChannelName || !std::ranges::all_of(name, is_name_character))
+    return "is no name of a channel: letters, digits and _, at most " + std::to_string(kLongestChannelName);
+  if (!find_unit(name)) return "must end in a unit, as slider_acceleration_m_s2 does";
+  return "";
+}
+
+std::string quoted_text(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string shown(text.substr(0, kLongest));
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return "\"" + shown + (text.size() > kLongest ? "..." : "") + "\"";
+}
+
+void add_time_faults(std::span<const double> time_s,
+                     const std::function<Fault(std::size_t, const std::string&)>& fault_at,
+                     const Fault& fault_of_all, std::vector<Fault>& faults) {
+  if (time_s.size() < kFewestMeasuredSamples) faults.push_back(fault_of_all);
+  for (std::size_t k = 1; k < time_s.size(); ++k) {
+    if (time_s[k] > time_s[k - 1]) continue;
+    faults.push_back(fault_at(k, "the time must increase; " + readable_number(time_s[k]) + " s follows " +
+                                     readable_number(time_s[k - 1]) + " s"));
+    if (faults.size() >= kMostFileFaults) return;
+  }
+}
+
+void throw_if_any(std::vector<Fault> faults) {
+  if (!faults.empty()) throw InvalidRequest(std::move(faults));
+}
+
+void refuse_body(std::string detail) { throw InvalidRequest(std::vector<Fault>{{"", std::move(detail)}}); }
+
+void check_value_count(std::size_t values) {
+  if (values > kMostMeasuredValues)
+    refuse_body("a measurement may have " + std::to_string(kMostMeasuredValues) +
+                " numbers, times among them; this one has " + std::to_string(values));
+}
+
+}  // namespace jobs

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/measurements/read_measurement_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "jobs/measurements/check_measurement.h"
+#include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/range.h"
+#include "jobs/requests/parameters.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr Range kAnyNumber;
+constexpr Range kAboveZero = above(0.0, std::numeric_limits<double>::max());
+
+/// Reads one request; a member function a part of it.
+class MeasurementParser {
+ public:
+  explicit MeasurementParser(const ordered_json& request) : request_(request) {}
+
+  Measurement parse() {
+    if (!request_.is_object()) refuse_body("must be an object");
+    check_keys(request_, "", kMeasurementKeys);
+    read_name();
+    read_channels();
+    throw_if_any(faults_);
+    read_runs();
+    throw_if_any(std::move(faults_));
+    return std::move(measurement_);
+  }
+
+ private:
+  void fault(std::string pointer, std::string detail) {
+    faults_.push_back({std::move(pointer), std::move(detail)});
+  }
+
+  void check_keys(const ordered_json& object, const std::string& pointer,
+                  std::span<const std::string_view> known) {
+    for (const auto& [key, value] : object.items())
+      if (std::ranges::find(known, key) == known.end())
+        fault(pointer + pointer_token(key), describe_unknown_key(key, known));
+  }
+
+  void read_name() {
+    if (!request_.contains("name")) return;
+    const ordered_json& name = request_.at("name");
+    const std::string text = name.is_string() ? name.get<std::string>() : "";
+    const std::string detail = name.is_string() ? describe_measurement_name_fault(text) : "must be a string";
+    if (!detail.empty()) return fault("/name", detail);
+    measurement_.name = text;
+  }
+
+  /// List of 1 to `most` items under a key; null if there is none, which is a fault.
+  const ordered_json* find_list(const std::string& key, std::size_t most) {
+    const auto found = request_.find(key);
+    const bool good =
+        found != request_.end() && found->is_array() && !found->empty() && found->size() <= most;
+    if (!good) fault("/" + key, "must be a list of 1 to " + std::to_string(most) + " items");
+    return good ? &*found : nullptr;
+  }
+
+  void read_channels() {
+    const ordered_json* const channels = find_list("channels", kMostMeasuredChannels);
+    if (channels == nullptr) return;
+    for (std::size_t c = 0; c < channels->size(); ++c)
+      read_channel((*channels)[c], "/channels/" + std::to_string(c));
+  }
+
+  void read_channel(const ordered_json& given, const std::string& pointer) {
+    if (!given.is_object()) return fault(pointer, "must be an object");
+    check_keys(given, pointer, kMeasuredChannelKeys);
+    MeasuredChannel channel;
+    channel.name = text_of(given, "name", pointer);
+    if (const std::string detail = describe_channel_name_fault(channel.name); !detail.empty())
+      fault(pointer + "/name", quoted_text(channel.name) + " " + detail);
+    const auto& others = measurement_.channels;
+    if (std::ranges::find(others, channel.name, &MeasuredChannel::name) != others.end())
+      fault(pointer + "/name", quoted_text(channel.name) + " stands twice");
+    channel.column = given.contains("column") ? text_of(given, "column", pointer) : channel.name;
+    channel.sign = number_of(given, "sign", pointer, 1.0, kAnyNumber);
+    if (std::abs(channel.sign) != 1.0) fault(pointer + "/sign", "must be 1 or -1");
+    channel.gain = number_of(given, "gain", pointer, 1.0, kAboveZero);
+    channel.offset = number_of(given, "offset", pointer, 0.0, kAnyNumber);
+    channel.delay_s = number_of(given, "delay_s", pointer, 0.0, kAnyNumber);
+    if (given.contains("low_pass_hz") && !given.at("low_pass_hz").is_null())
+      channel.low_pass_hz = number_of(given, "low_pass_hz", pointer, 1.0, kAboveZero);
+    measurement_.channels.push_back(std::move(channel));
+  }
+
+  std::string text_of(const ordered_json& object, const char* key, const std::string& pointer) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_string()) {
+      fault(pointer + "/" + key, "must be a string");
+      return "";
+    }
+    std::string text = found->get<std::string>();
+    if (std::string detail = describe_measurement_name_fault(text); !detail.empty())
+      fault(pointer + "/" + key, std::move(detail));
+    return text;
+  }
+
+  double number_of(const ordered_json& object, const char* key, const std::string& pointer, double otherwise,
+                   const Range& range) {
+    if (!object.contains(key)) return otherwise;
+    const json value = object.at(key);
+    const std::string detail = describe_number_fault(range, "", value);
+    if (detail.empty()) return value.get<double>();
+    fault(pointer + "/" + key, detail);
+    return otherwise;
+  }
+
+  void read_runs() {
+    const ordered_json* const runs = find_list("runs", kMostMeasuredRuns);
+    if (runs == nullptr) return;
+    for (std::size_t r = 0; r < runs->size() && faults_.size() < kMostFileFaults; ++r)
+      read_run((*runs)[r], "/runs/" + std::to_string(r));
+  }
+
+  void read_run(const ordered_json& given, const std::string& pointer) {
+    if (!given.is_object()) return fault(pointer, "must be an object");
+    check_keys(given, pointer, kMeasuredRunKeys);
+    MeasuredRun run;
+    if (given.contains("parameters")) read_parameters(given.at("parameters"), pointer + "/parameters", run);
+    run.time_s = numbers_of(given, kTimeColumn, pointer);
+    add_time_faults(
+        run.time_s,
+        [&](std::size_t k, const std::string& text) {
+          return Fault{pointer + "/time_s/" + std::to_string(k), text};
+        },
+        {pointer + "/time_s",
+         "must be a list of " + std::to_string(kFewestMeasuredSamples) + " numbers or more"},
+        faults_);
+    read_values(given, pointer + "/values", run);
+    measurement_.runs.push_back(std::move(run));
+  }
+
+  void read_parameters(const ordered_json& given, const std::string& pointer, MeasuredRun& run) {
+    if (!given.is_object()) return fault(pointer, "must be an object");
+    run.parameters = given;
+    try {
+      static_cast<void>(complete_parameters(run.parameters, pointer));
+    } catch (const InvalidRequest& invalid) {
+      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+    }
+  }
+
+  void read_values(const ordered_json& given, const std::string& pointer, MeasuredRun& run) {
+    const auto values = given.find("values");
+    if (values == given.end() || !values->is_object())
+      return fault(pointer, "must be an object with a list of numbers for each channel");
+    for (const auto& [key, value] : values->items())
+      if (std::ranges::find(measurement_.channels, key, &MeasuredChannel::name) ==
+          measurement_.channels.end())
+        fault(pointer + pointer_token(key), "is no channel of this measurement");
+    for (const MeasuredChannel& channel : measurement_.channels) {
+      run.columns.push_back(numbers_of(*values, channel.name, pointer));
+      if (run.columns.back().size() != run.time_s.size() && faults_.empty())
+        fault(pointer + pointer_token(channel.name), "has " + std::to_string(run.columns.back().size()) +
+                                                         " numbers, but time_s has " +
+                                                         std::to_string(run.time_s.size()));
+    }
+  }
+
+  /// Finite numbers of a list. Those that are none are faults.
+  std::vector<double> numbers_of(const ordered_json& object, const std::string& key,
+                                 const std::string& pointer) {
+    const std::string here = pointer + pointer_token(key);
+    const auto list = object.find(key);
+    std::vector<double> numbers;
+    if (list == object.end() || !list->is_array()) {
+      fault(here, "must be a list of numbers");
+      return numbers;
+    }
+    check_value_count(values_ += list->size());
+    numbers.reserve(list->size());
+    for (const ordered_json& value : *list) {
+      numbers.push_back(value.is_number() ? value.get<double>() : 0.0);
+      if (value.is_number()) continue;
+      if (faults_.size() < kMostFileFaults)
+        fault(here + "/" + std::to_string(numbers.size() - 1),
+              "must be a number" + (value.is_null() ? std::string("; ") + kNoGaps : ""));
+    }
+    return numbers;
+  }
+
+  const ordered_json& request_;
+  Measurement measurement_;
+  std::size_t values_ = 0;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+Measurement read_measurement_json(const ordered_json& request) { return MeasurementParser(request).parse(); }
+
+}  // namespace jobs
