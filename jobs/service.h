@@ -42,6 +42,7 @@ namespace jobs {
 class Store;
 class StudyRunner;
 struct Cancellation;
+struct Measurement;
 
 /// When a service begins to compute.
 enum class Start { kAtOnce, kWhenTold };
@@ -154,6 +155,19 @@ class Service {
   std::optional<nlohmann::json> retry_study(StudyKind kind, const std::string& id);
   /// Deletes a study that has ended, with the sweep of its evaluations. False if there is none.
   bool delete_study(StudyKind kind, const std::string& id);
+
+  /// Stores a measurement, or nothing at all. @param key as of submit_sweep()
+  nlohmann::json submit_measurement(const Measurement& measurement, const std::string& key = {});
+  [[nodiscard]] std::optional<nlohmann::json> find_measurement(const std::string& id) const;
+  /// {"items": [...], "next_cursor": ""}; items have no runs
+  [[nodiscard]] nlohmann::json list_measurements(const PageQuery& query) const;
+  /// Samples of one run, the time as t_s. See find_trajectory_view().
+  /// @param run  number of the run, from 0; empty: the only one
+  [[nodiscard]] std::optional<TrajectoryView> find_measurement_data(
+      const std::string& id, std::optional<std::size_t> run, const TrajectoryQuery& query,
+      const std::function<bool(const std::string& fingerprint)>& wanted) const;
+  /// False if there is none.
+  bool delete_measurement(const std::string& id);
 
   [[nodiscard]] QueueStats read_queue_stats() const;
   /// Executors: {"items": [status, ...]}, the default one first. See Executor::status().

@@ -110,6 +110,14 @@ struct StudyRow {
   std::optional<std::int64_t> ended_ms;
 };
 
+/// Measurement without its samples.
+struct MeasurementRow {
+  std::string id, name;
+  std::string description;      ///< as measurement_json() makes it
+  std::int64_t created_ms = 0;
+  std::int64_t bytes = 0;       ///< of the packed samples
+};
+
 enum class RowParameters { kNone, kAll };
 
 /// One job's line in the table of its sweep.

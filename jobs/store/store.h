@@ -8,12 +8,13 @@
 #include "jobs/base/provenance.h"
 #include "jobs/store/cluster_batches.h"
 #include "jobs/store/job_queue.h"
+#include "jobs/store/measurement_table.h"
 #include "jobs/store/study_table.h"
 #include "jobs/store/sweep_reader.h"
 
 namespace jobs {
 
-/// Store of everything that is kept on disk, and all the SQL, in four interfaces. May be called from any
+/// Store of everything that is kept on disk, and all the SQL, in five interfaces. May be called from any
 /// thread. Throws StorageError. No time that is stored is before one that it follows, even if the clock is
 /// set back in between.
 class Store {
@@ -52,6 +53,7 @@ class Store {
   JobQueue queue{core_};
   ClusterBatches batches{core_};
   StudyTable studies{core_};
+  MeasurementTable measurements{core_};
   SweepReader reader{core_};
 };
 

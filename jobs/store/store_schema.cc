@@ -16,7 +16,7 @@ namespace {
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
 /// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
-constexpr std::array<const char*, 4> kMigrations{R"sql(
+constexpr std::array<const char*, 5> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,
     id TEXT NOT NULL UNIQUE,
@@ -138,6 +138,18 @@ constexpr std::array<const char*, 4> kMigrations{R"sql(
 
   ALTER TABLE results ADD COLUMN libm TEXT NOT NULL DEFAULT '';
   ALTER TABLE results ADD COLUMN numerics TEXT NOT NULL DEFAULT '';
+)sql",
+                                                 R"sql(
+  -- Signals that a lab has measured. The samples stand last: rows are read without them.
+  CREATE TABLE measurements (
+    seq INTEGER PRIMARY KEY,
+    id TEXT NOT NULL UNIQUE,
+    name TEXT NOT NULL,
+    description TEXT NOT NULL,
+    created_ms INTEGER NOT NULL,
+    bytes INTEGER NOT NULL,
+    data BLOB NOT NULL
+  ) STRICT;
 )sql"};
 constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
 
@@ -156,12 +168,12 @@ std::string shortened(std::string text) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
 }
 
-/// Looks at all but the trajectories: they are nearly all of a large store, and each carries its own
-/// checksum.
+/// Looks at all but trajectories and measurements: they are nearly all of a large store, and each carries its
+/// own checksum.
 void check_health(SQLite::Database& database, const std::string& name) {
   SQLite::Statement tables(database,
-                           "SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'trajectories' "
-                           "AND name NOT LIKE 'sqlite_%'");
+                           "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT IN "
+                           "('trajectories', 'measurements') AND name NOT LIKE 'sqlite_%'");
   while (tables.executeStep()) {
     const std::string table = tables.getColumn(0).getString();
     const std::string verdict = database.execAndGet("PRAGMA quick_check(" + table + ")").getString();
