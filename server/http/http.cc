@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <chrono>
@@ -98,9 +99,12 @@ bool is_of_a_page(const httplib::Request& request) {
   return request.has_header("Origin") || request.has_header("Sec-Fetch-Site");
 }
 
-bool is_json(const std::string& content_type) {
+/// Media types that a page of another site cannot send without asking.
+bool is_safe_of_a_page(const std::string& content_type) {
   const std::string media_type = content_type.substr(0, content_type.find_first_of("; \t"));
-  return ::strcasecmp(media_type.c_str(), "application/json") == 0;
+  return std::ranges::any_of(
+      std::array{"application/json", "text/csv", "application/octet-stream", "application/x-npz"},
+      [&](const char* type) { return ::strcasecmp(media_type.c_str(), type) == 0; });
 }
 
 /// Names of codings have no case; "x-gzip" is "gzip" (RFC 9110, section 8.4.1).
@@ -119,7 +123,7 @@ std::optional<Refusal> find_media_fault(const httplib::Request& request) {
   if (request.is_multipart_form_data())
     return Refusal{415, "send the JSON text itself, not as a part of a form"};
   const bool empty = request.get_header_value("Content-Length") == "0";
-  if (!empty && is_of_a_page(request) && !is_json(request.get_header_value("Content-Type"))) {
+  if (!empty && is_of_a_page(request) && !is_safe_of_a_page(request.get_header_value("Content-Type"))) {
     return Refusal{415, "a page sends JSON with Content-Type: application/json"};
   }
   const std::string coding = body_form(request).coding;
@@ -254,15 +258,16 @@ class HttpServer::Impl {
   void route_with_body(const httplib::Request& request, httplib::Response& response) {
     std::string body;
     std::shared_ptr<const void> permit;
+    const std::size_t body_bytes = limits.body_bytes_of(request.path);
     if (has_body(request)) {
       auto fault = find_media_fault(request);
       if (!fault && may_be_large(request)) {
-        permit = large_bodies_.acquire();
+        permit = (body_bytes > limits.body_bytes ? measurement_bodies_ : large_bodies_).acquire();
         if (!permit)
           return copy_to(response, make_retry_later(503, "as many large bodies wait as may; try again"));
       }
       if (!fault)
-        fault = read_request_body(GuardedServer::read_body, body_form(request), limits.body_bytes, body);
+        fault = read_request_body(GuardedServer::read_body, body_form(request), body_bytes, body);
       if (fault) return copy_to(response, make_problem(fault->status, fault->detail));
     }
     answer(request, std::move(body), response);
@@ -299,6 +304,7 @@ class HttpServer::Impl {
     request.base_path = base_path_of(from);
     request.query.assign(from.params.begin(), from.params.end());
     request.accept = from.get_header_value("Accept");
+    request.content_type = from.get_header_value("Content-Type");
     request.accept_encoding = from.get_header_value(kAcceptEncoding);
     request.if_none_match = from.get_header_value("If-None-Match");
     request.prefer = from.get_header_value("Prefer");
@@ -326,6 +332,7 @@ class HttpServer::Impl {
   OriginCheck origin_check_;
   AccessCheck access_check_;
   RequestIds request_ids_;
+  WorkLimit measurement_bodies_{1, 8};  // of up to 64 MiB
   WorkLimit large_bodies_{6, 16};  // of up to 8 MiB each, read and served
 
  public:

@@ -107,7 +107,7 @@ GuardedServer::GuardedServer(const HttpLimits& limits,
                   [this](PendingConnection connection) { serve_and_close(std::move(connection)); }) {
   set_socket_options(set_reuse_address);
   set_tcp_nodelay(true);
-  set_payload_max_length(limits.body_bytes);
+  set_payload_max_length(limits.largest_body_bytes());
 }
 
 GuardedServer::~GuardedServer() {
@@ -207,13 +207,15 @@ void GuardedServer::serve(HttpStream& stream) {
     case HttpStream::Head::kComplete:
       break;
   }
-  if (const auto fault = find_fault_in_head(stream.head(), limits_.body_bytes)) {
+  const std::size_t body_bytes = limits_.body_bytes_of(raw_path_of(stream.head()));
+  if (const auto fault = find_fault_in_head(stream.head(), body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
   // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or
   // refuse and in how they parse a query. The library therefore parses method and version alone; fill() sets
   // the rest.
   RequestHead head = read_head(stream.head());
+  stream.allow_body(body_bytes);
   // Nor does the library say "100 Continue": it would before it has asked whether the client may.
   if (const auto expected = head.headers.extract("expect"))
     stream.expect_continue(::strcasecmp(expected.mapped().c_str(), "100-continue") == 0);

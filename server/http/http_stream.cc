@@ -21,7 +21,7 @@ constexpr std::size_t kReadBytes = 16 * 1024;
 constexpr std::chrono::milliseconds kPollSlice{100};
 
 /// Chunked bodies carry a size line a chunk: this much more than the body itself may come off the wire.
-std::size_t raw_body_limit(const HttpLimits& limits) { return 2 * limits.body_bytes + 64 * 1024; }
+std::size_t raw_body_limit(std::size_t body_bytes) { return 2 * body_bytes + 64 * 1024; }
 
 template <typename NameOf>
 void read_address(NameOf name_of, int socket, std::string& ip, int& port) {
@@ -52,6 +52,7 @@ HttpStream::HttpStream(PendingConnection connection, const HttpLimits& limits,
       draining_(draining),
       queued_(queued),
       buffer_(std::move(connection.received)),
+      body_limit_(limits.body_bytes),
       read_deadline_(connection.accepted + limits.head_time),
       crowded_deadline_(Clock::now() + limits.crowded_time) {}
 
@@ -79,6 +80,13 @@ HttpStream::Head HttpStream::read_head() {
 void HttpStream::replace_head(const std::string& head) {
   buffer_.replace(0, head_size_, head);
   head_size_ = head.size();
+}
+
+void HttpStream::allow_body(std::size_t bytes) {
+  body_limit_ = bytes;
+  if (bytes <= limits_.body_bytes) return;
+  const double times = static_cast<double>(bytes) / static_cast<double>(limits_.body_bytes);
+  read_deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(times * limits_.body_time);
 }
 
 void HttpStream::send_continue() {
@@ -119,7 +127,7 @@ ssize_t HttpStream::read(char* to, std::size_t size) {
     consumed_ += n;
     return static_cast<ssize_t>(n);
   }
-  if (raw_body_bytes_ > raw_body_limit(limits_)) return -1;
+  if (raw_body_bytes_ > raw_body_limit(body_limit_)) return -1;
   // httplib reads chunk sizes a byte at a time: one system call each would be a burden.
   buffer_.resize(kReadBytes);
   const ssize_t got = receive(buffer_.data(), buffer_.size(), read_deadline_);

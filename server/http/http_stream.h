@@ -35,6 +35,9 @@ class HttpStream final : public httplib::Stream {
   /// Replaces the head that was read. Not after read().
   void replace_head(const std::string& head);
 
+  /// Sets the largest body, and the time for it. Before the body is read.
+  void allow_body(std::size_t bytes);
+
   /// Notes whether the client waits for "100 Continue" before it sends the body (RFC 9110, section 10.1.1).
   void expect_continue(bool expected) { expects_continue_ = expected; }
   /// Sends it to a client that waits, once. Not counted as part of the answer.
@@ -75,6 +78,7 @@ class HttpStream final : public httplib::Stream {
   const std::atomic<int>& queued_;
   mutable std::optional<Clock::time_point> drain_deadline_;  ///< set when draining is first noticed
   std::string buffer_;                ///< bytes received and not yet given to httplib, from consumed_ on
+  std::size_t body_limit_;            ///< bytes of the body, decoded
   std::size_t consumed_ = 0;
   std::size_t head_size_ = 0;
   std::size_t raw_body_bytes_ = 0;

@@ -188,6 +188,14 @@ std::string bare_host(const std::string& host) {
 
 }  // namespace
 
+std::string_view raw_path_of(std::string_view head) {
+  const std::string_view line = head.substr(0, head.find("\r\n"));
+  const auto start = line.find(' ');
+  if (start == std::string_view::npos) return {};
+  const std::string_view target = line.substr(start + 1);
+  return target.substr(0, target.find_first_of(" ?#"));
+}
+
 std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes) {
   Framing framing;
   bool first = true;

@@ -26,6 +26,7 @@ struct Request {
   std::optional<std::string> idempotency_key{};
   /// Path under which clients reach the service through a proxy, as "/rpsup"; empty: at the root of its host
   std::string base_path{};
+  std::string content_type{};                               ///< of the body; empty if the header is missing
 };
 
 /// A file that is sent as a body and is gone when it has been.
