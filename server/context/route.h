@@ -10,7 +10,7 @@
 
 namespace server {
 
-/// Form of a route's answer: media type, and name of its schema in the OpenAPI document.
+/// Form of a route's answer or body: media type, and name of its schema in the OpenAPI document.
 struct AnswerForm {
   std::string_view media_type;
   std::string schema;
@@ -28,6 +28,7 @@ struct Route {
   std::vector<std::string_view> query = {};    ///< ids in request_parameters()
   std::vector<std::string_view> headers = {};  ///< the same, of headers
   std::string body = {};                       ///< schema of the request's JSON; empty: no body
+  std::vector<AnswerForm> other_bodies = {};   ///< other forms of the body
   int success = 200;
   std::vector<AnswerForm> answers = {};        ///< forms of the answer to success; empty: without a body
   std::vector<int> bodiless = {};  ///< statuses of other answers without a body that are no problems

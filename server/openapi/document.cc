@@ -104,6 +104,8 @@ Json make_operation(const Route& route) {
   if (!route.body.empty()) {
     operation["requestBody"] = {{"required", true},
                                 {"content", {{"application/json", {{"schema", openapi::ref(route.body)}}}}}};
+    for (const AnswerForm& form : route.other_bodies)
+      operation["requestBody"]["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);
   }
   operation["responses"][std::to_string(route.success)] = make_success(route);
   for (const int status : route.bodiless)

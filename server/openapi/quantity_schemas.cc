@@ -12,30 +12,11 @@
 #include "engine/model/links.h"
 #include "engine/model/rpsup_parameters.h"
 #include "engine/simulate_linkage.h"
+#include "jobs/measurements/channel_unit.h"
 
 namespace server::openapi {
 
 namespace {
-
-/// Ends of names and their units; the first that fits counts.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kUnits{{{"_j_m", "J m"},
-                                                                                {"_rad_s2", "rad/s²"},
-                                                                                {"_rad_s", "rad/s"},
-                                                                                {"_m_s2", "m/s²"},
-                                                                                {"_m_s", "m/s"},
-                                                                                {"_n_m", "N m"},
-                                                                                {"_mrad", "mrad"},
-                                                                                {"_rad", "rad"},
-                                                                                {"_mm", "mm"},
-                                                                                {"_um", "µm"},
-                                                                                {"_n", "N"},
-                                                                                {"_a", "A"},
-                                                                                {"_v", "V"},
-                                                                                {"_w", "W"},
-                                                                                {"_j", "J"},
-                                                                                {"_s", "s"},
-                                                                                {"_m", "m"},
-                                                                                {"", "1"}}};
 
 Json schema_of(const engine::QuantityInfo& quantity, const ValueSchema& value) {
   Json schema = described(value(quantity), quantity.help);
@@ -142,7 +123,7 @@ std::vector<engine::QuantityInfo> all_channels() {
 }  // namespace
 
 std::string_view unit_of(std::string_view key) {
-  return std::ranges::find_if(kUnits, [&](const auto& unit) { return key.ends_with(unit.first); })->second;
+  return jobs::find_unit(key).value_or("1");
 }
 
 Json metric_properties(const ValueSchema& value) { return properties_of(engine::metric_table(), value); }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "jobs/motion/spectrum.h"
+#include "jobs/requests/sweep_request.h"
 #include "jobs/results/page_query.h"
 #include "jobs/trajectories/decimate.h"
 #include "jobs/wear/wear.h"
@@ -104,6 +105,16 @@ std::vector<RequestParameter> make_query_parameters() {
        "The clearance whose life is asked for",
        {{"type", "number"}}},
       {"channels", "query", "channels", "These columns, after t_s; all if left out", kNames},
+      {"measurement_name", "query", "name", "Name of the measurement; of CSV and NPZ",
+       {{"type", "string"}, {"maxLength", jobs::kLongestName}}},
+      {"measurement_time", "query", "time",
+       "Column of the time, in s; of CSV and NPZ. If left out time_s, t_s, or the first column of CSV",
+       kText},
+      {"measurement_channels", "query", "channels",
+       "COLUMN:CHANNEL, or the name of both; of CSV and NPZ. If left out each other column is a channel",
+       kNames},
+      {"run", "query", "run", "Number of the run, from 0; of a measurement of one run it may be left out",
+       kCount},
       {"from", "query", "from", "Only samples from this time on, in s", {{"type", "number"}}},
       {"to", "query", "to", "Only samples up to this time, in s", {{"type", "number"}}},
       {"points",

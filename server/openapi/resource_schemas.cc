@@ -8,6 +8,7 @@
 #include "jobs/statistics/replicate_statistics.h"
 #include "jobs/base/states.h"
 #include "server/openapi/analysis_schemas.h"
+#include "server/openapi/measurement_schemas.h"
 #include "server/openapi/quantity_schemas.h"
 #include "server/openapi/search_schemas.h"
 #include "server/openapi/optimisation_schemas.h"
@@ -202,6 +203,7 @@ Json make_resource_schemas() {
   schemas.update(make_search_schemas());
   schemas.update(make_wear_schemas());
   schemas.update(make_optimisation_schemas());
+  schemas.update(make_measurement_schemas());
   schemas.update(make_analysis_schemas());
   return schemas;
 }

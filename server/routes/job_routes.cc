@@ -2,16 +2,10 @@
 #include "server/routes/job_routes.h"
 
 #include <chrono>
-#include <memory>
 #include <string>
 #include <utility>
 
-#include "jobs/base/content_id.h"
 #include "jobs/requests/parameter_schema.h"
-#include "jobs/results/trajectory_table_text.h"
-#include "jobs/trajectories/trajectory_text.h"
-#include "server/messages/conditional.h"
-#include "server/messages/error_answer.h"
 #include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
 #include "server/messages/problem.h"
@@ -19,6 +13,7 @@
 #include "server/routes/listing.h"
 #include "server/routes/resource.h"
 #include "server/routes/tables.h"
+#include "server/routes/trajectory_answer.h"
 
 namespace server {
 
@@ -38,42 +33,6 @@ Resource job_resource(const RequestContext& context) {
                                  std::chrono::seconds at_most) { service.wait_for_job(id, at_most); },
           .has_ended = has_ended,
           .missing = no_such_job};
-}
-
-std::unique_ptr<jobs::TrajectoryText> make_trajectory_text(jobs::TrajectoryView view, TableFormat format) {
-  if (format == TableFormat::kCsv) return jobs::csv_text(std::move(view));
-  return format == TableFormat::kNpz ? jobs::npz_text(std::move(view)) : jobs::json_text(std::move(view));
-}
-
-/// Text of a long trajectory, with the permit to hold it.
-class TrajectoryBody final : public BodyStream {
- public:
-  TrajectoryBody(std::unique_ptr<jobs::TrajectoryText> text, std::shared_ptr<const void> permit)
-      : permit_(std::move(permit)), text_(std::move(text)) {}
-  bool append_next(std::string& to) override { return text_ != nullptr && text_->append_next(to); }
-
- private:
-  std::shared_ptr<const void> permit_;
-  std::unique_ptr<jobs::TrajectoryText> text_;
-};
-
-/// Fills in a body: at once if it is short, else as a stream.
-void set_trajectory(const RequestContext& context, jobs::TrajectoryView view, TableFormat format,
-                    Response& response) {
-  constexpr std::size_t kMostAtOnce = 250'000;  // values; some 5 MB of text
-  const bool is_short = view.samples() * view.channels().size() <= kMostAtOnce;
-  auto permit = is_short ? nullptr : context.stream_limit.acquire();
-  if (!is_short && !permit) {
-    response = make_retry_later(503, "as many long trajectories are being sent as may; try again");
-    return;
-  }
-  auto text = make_trajectory_text(std::move(view), format);
-  if (!is_short) {
-    response.stream = std::make_shared<TrajectoryBody>(std::move(text), std::move(permit));
-    return;
-  }
-  while (text->append_next(response.body)) {
-  }
 }
 
 }  // namespace
@@ -110,31 +69,16 @@ Response delete_job(const RequestContext& context) {
 Response get_trajectory(const RequestContext& context) {
   Query query(context.request, {"channels", "from", "to", "points", "format"});
   const TableFormat format = find_column_format(context.request, query);
-  jobs::TrajectoryQuery wanted;
-  wanted.channels = query.list("channels");
-  wanted.from = query.number("from");
-  wanted.to = query.number("to");
-  wanted.points = query.count("points");
-  Response response = make_table(format, "", "job-" + context.id);
-  bool is_wanted = false;
-  auto view = query.check_and([&] {
-    return context.service.find_trajectory_view(context.id, wanted, [&](const std::string& fingerprint) {
-      // Only what has ended has a trajectory.
-      const std::string name = jobs::sha256_hex(response.content_type + "\n", fingerprint).substr(0, 32);
-      response.headers.emplace_back("Cache-Control", "private, no-cache");
-      response = with_etag(context.request, std::move(response), "\"" + name + "\"");
-      return is_wanted = response.status == 200 && context.request.method != "HEAD";
-    });
-  });
-  if (!view) {
-    const auto job = context.service.find_job(context.id);
-    if (!job) throw no_such_job(context.id);
-    throw HttpError(404, "job " + context.id + " is " + job->at("state").template get<std::string>() +
-                             " and has no trajectory");
-  }
-  if (is_wanted) set_trajectory(context, std::move(*view), format, response);
-  else if (response.status == 200) response.stream = std::make_shared<TrajectoryBody>(nullptr, nullptr);
-  return response;
+  const jobs::TrajectoryQuery wanted = read_trajectory_query(query);
+  auto response = answer_with_columns(
+      context, query, wanted, format, "job-" + context.id, [&](const auto& asked, const auto& is_wanted) {
+        return context.service.find_trajectory_view(context.id, asked, is_wanted);
+      });
+  if (response) return std::move(*response);
+  const auto job = context.service.find_job(context.id);
+  if (!job) throw no_such_job(context.id);
+  throw HttpError(404, "job " + context.id + " is " + job->at("state").get<std::string>() +
+                           " and has no trajectory");
 }
 
 Response get_parameters(const RequestContext& context) {

@@ -18,6 +18,10 @@ namespace server {
 [[nodiscard]] nlohmann::json list_page(const Request& request,
                                        const std::function<nlohmann::json(const jobs::PageQuery&)>& list);
 
+/// The same for a listing of what has no state: `?limit=&cursor=&fields=`.
+[[nodiscard]] nlohmann::json list_stateless_page(
+    const Request& request, const std::function<nlohmann::json(const jobs::PageQuery&)>& list);
+
 /// The rows and columns of a table of results that `?fields=&order_by=&limit=` and filters ask for.
 /// @param query  which keeps its others
 [[nodiscard]] jobs::ResultQuery read_result_query(Query& query);

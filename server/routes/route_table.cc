@@ -4,6 +4,7 @@
 #include "server/routes/analysis_routes.h"
 #include "server/routes/document_routes.h"
 #include "server/routes/job_routes.h"
+#include "server/routes/measurement_routes.h"
 #include "server/routes/page_routes.h"
 #include "server/routes/store_route.h"
 #include "server/routes/study_routes.h"
@@ -246,6 +247,34 @@ std::vector<Route> make_job_routes() {
   };
 }
 
+std::vector<Route> make_measurement_routes() {
+  return {
+      {.method = "POST", .pattern = "/v1/measurements", .handler = post_measurement,
+       .operation_id = "submitMeasurement", .tag = "measurements",
+       .summary = "Store measured signals, or refuse them with the place of each fault",
+       .query = {"measurement_name", "measurement_time", "measurement_channels"},
+       .headers = {"idempotency_key"}, .body = "MeasurementRequest",
+       .other_bodies = {{kCsv, "Text"}, {kNpz, "Binary"}, {"application/octet-stream", "Binary"}},
+       .success = 201, .answers = {{kJson, "Measurement"}}, .problems = {409, 422}},
+      {.method = "GET", .pattern = "/v1/measurements", .handler = get_measurements,
+       .operation_id = "listMeasurements", .tag = "measurements", .summary = "Measurements, the newest first",
+       .query = {"limit", "cursor", "fields"}, .answers = {{kJson, "MeasurementPage"}}, .problems = {422}},
+      {.method = "GET", .pattern = "/v1/measurements/{id}", .handler = get_measurement,
+       .operation_id = "getMeasurement", .tag = "measurements",
+       .summary = "Channels, runs, sampling and statistics of a measurement", .headers = {"if_none_match"},
+       .answers = {{kJson, "Measurement"}}, .bodiless = {304}, .problems = {404, 422}},
+      {.method = "GET", .pattern = "/v1/measurements/{id}/data", .handler = get_measurement_data,
+       .operation_id = "getMeasurementData", .tag = "measurements",
+       .summary = "Samples of a run of a measurement, as they were sent",
+       .query = {"run", "channels", "from", "to", "points", "column_format"}, .headers = {"if_none_match"},
+       .answers = {{kJson, "Columns"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304},
+       .problems = {404, 422}},
+      {.method = "DELETE", .pattern = "/v1/measurements/{id}", .handler = delete_measurement,
+       .operation_id = "deleteMeasurement", .tag = "measurements", .summary = "Delete a measurement",
+       .success = 204, .problems = {404, 422}},
+  };
+}
+
 std::vector<Route> make_other_routes() {
   return {
       {.method = "GET", .pattern = "/v1/parameters", .handler = get_parameters,
@@ -290,8 +319,8 @@ std::vector<Route> make_other_routes() {
 std::vector<Route> make_route_table() {
   std::vector<Route> table;
   for (const auto& part : {make_sweep_routes(), make_search_routes(), make_wear_routes(),
-                           make_optimisation_routes(),
-                           make_analysis_routes(), make_job_routes(), make_other_routes()}) {
+                           make_optimisation_routes(), make_analysis_routes(), make_job_routes(),
+                           make_measurement_routes(), make_other_routes()}) {
     table.insert(table.end(), part.begin(), part.end());
   }
   return table;

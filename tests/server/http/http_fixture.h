@@ -20,12 +20,14 @@ namespace server_tests {
 using Clock = std::chrono::steady_clock;
 
 inline constexpr std::size_t kBodyBytes = 100'000;
+inline constexpr std::size_t kMeasurementBodyBytes = 400'000;
 
 /// Limits that a test can run into without waiting for long.
 inline server::HttpLimits short_limits() {
   using namespace std::chrono_literals;
   server::HttpLimits limits;
   limits.body_bytes = kBodyBytes;
+  limits.measurement_body_bytes = kMeasurementBodyBytes;
   limits.head_time = 400ms;
   limits.body_time = 900ms;
   limits.linger_time = 300ms;

@@ -100,6 +100,19 @@ TEST_F(Http, RefusesAChunkedBodyThatGrowsTooLarge) {
   EXPECT_EQ(status_of(client.read_all()), 413);
 }
 
+TEST_F(Http, TakesALargerBodyOfAMeasurement) {
+  std::string csv = "time_s,force_n\n";
+  for (int k = 0; csv.size() < 3 * kBodyBytes; ++k) csv += std::to_string(k) + ",0.5\n";
+  const std::string type = "Content-Type: text/csv\r\n";
+  EXPECT_EQ(status_of(post("/v1/measurements", csv, type)), 201);
+  EXPECT_EQ(status_of(ask("POST /v1/measurements?name=chunks HTTP/1.1\r\nHost: localhost\r\n" + type +
+                          "Transfer-Encoding: chunked\r\n\r\n" + chunked(csv, 4000))),
+            201);
+  EXPECT_EQ(status_of(post("/v1/sweeps", csv)), 413);
+  const std::string length = "Content-Length: " + std::to_string(kMeasurementBodyBytes + 1);
+  EXPECT_EQ(status_of(ask("POST /v1/measurements HTTP/1.1\r\nHost: localhost\r\n" + length + "\r\n\r\n")), 413);
+}
+
 TEST_F(Http, TakesABodyOfExactlyTheLimit) {
   std::string body = R"({"sweep": {"clearance_mm": [0.1]})";
   body += std::string(kBodyBytes - body.size() - 1, ' ') + "}";
