@@ -87,17 +87,6 @@ void write_beside(const std::string& path, const std::string& text, const struct
   cannot_write(path);
 }
 
-std::string read_text(const std::string& path) {
-  if (path == "-") return read_all(std::cin);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw BadInput("cannot read " + path + ": it is a folder");
-  std::ifstream file(path, std::ios::binary);
-  std::string text = file ? read_all(file) : "";
-  if (!file) throw BadInput("cannot read " + path + ": " + std::strerror(errno));
-  return text;
-}
-
 }  // namespace
 
 int run_guarded(const std::function<int()>& command) {
@@ -120,6 +109,17 @@ int run_guarded(const std::function<int()>& command) {
   } catch (const std::exception& error) {
     return report(kMachineFailed, error.what());
   }
+}
+
+std::string read_text(const std::string& path) {
+  if (path == "-") return read_all(std::cin);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw BadInput("cannot read " + path + ": it is a folder");
+  std::ifstream file(path, std::ios::binary);
+  std::string text = file ? read_all(file) : "";
+  if (!file) throw BadInput("cannot read " + path + ": " + std::strerror(errno));
+  return text;
 }
 
 nlohmann::ordered_json read_json(const std::string& path) {

@@ -33,6 +33,9 @@ class CannotWrite : public std::runtime_error {
 /// Runs a command and turns what it throws into words on standard error and an exit code.
 int run_guarded(const std::function<int()>& command);
 
+/// Reads a whole file, "-" for standard input. @throws BadInput if it cannot be read
+[[nodiscard]] std::string read_text(const std::string& path);
+
 /// Reads a JSON file, "-" for standard input.
 /// @throws BadInput if it cannot be read or is no JSON
 [[nodiscard]] nlohmann::ordered_json read_json(const std::string& path);

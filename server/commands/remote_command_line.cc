@@ -58,6 +58,28 @@ Command add_submit(CLI::App& app) {
   return make_remote_command(command, options, submit);
 }
 
+Command add_measure(CLI::App& app) {
+  const auto options = std::make_shared<MeasureOptions>();
+  CLI::App* const command = add_command(
+      app, "measure", "Store a file of measured signals in a running service and print its id", *options);
+  command
+      ->add_option("file", options->file,
+                   "CSV file, whose first line names the columns; or one that ends in .npz or .json; - reads "
+                   "CSV from standard input")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--name", options->name, "Name of the measurement; that of the file if left out");
+  command->add_option("--time", options->time,
+                      "Column of the time in s; time_s, t_s or the first one if left out");
+  command
+      ->add_option("--channel", options->channels,
+                   "Column that is read, and channel of a trajectory that it measures, such as "
+                   "acc=slider_acceleration_m_s2; may be repeated. Every column if left out")
+      ->type_name("COLUMN=CHANNEL")
+      ->allow_extra_args(false);
+  return make_remote_command(command, options, measure);
+}
+
 Command add_status(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
   CLI::App* const command = add_command(
@@ -101,7 +123,8 @@ Command add_cancel(CLI::App& app) {
 }  // namespace
 
 std::vector<Command> add_remote_commands(CLI::App& app) {
-  return {add_submit(app), add_status(app), add_watch(app), add_results(app), add_cancel(app)};
+  return {add_submit(app), add_measure(app), add_status(app),
+          add_watch(app),  add_results(app), add_cancel(app)};
 }
 
 }  // namespace server::commands

@@ -17,7 +17,7 @@ struct Command {
   std::function<int()> run;  ///< returns an exit code
 };
 
-/// The commands that speak to a running service: submit, status, watch, results, cancel.
+/// The commands that speak to a running service: submit, measure, status, watch, results, cancel.
 [[nodiscard]] std::vector<Command> add_remote_commands(CLI::App& app);
 
 }  // namespace server::commands

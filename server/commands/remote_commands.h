@@ -21,6 +21,17 @@ struct SubmitOptions {
 /// Submits a request and prints the id of what came of it on a line of standard output.
 int submit(const SubmitOptions& options);
 
+struct MeasureOptions {
+  RemoteOptions remote;
+  std::string file;                   ///< CSV, or .npz or .json; "-": CSV of standard input
+  std::string name;                   ///< of the measurement; empty: that of the file
+  std::string time;                   ///< column of the time; empty: the service chooses
+  std::vector<std::string> channels;  ///< COLUMN=CHANNEL; empty: every column
+};
+
+/// Stores a file of measured signals and prints the id of the measurement.
+int measure(const MeasureOptions& options);
+
 struct StatusOptions {
   RemoteOptions remote;
   std::string id;     ///< of a sweep or a job; empty: the newest sweeps

@@ -2,7 +2,9 @@
 #include "server/commands/remote_service.h"
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,6 +69,17 @@ const char* path_of(RemoteService::Kind kind) {
   return kind == RemoteService::Kind::kSweep ? "/v1/sweeps" : "/v1/jobs";
 }
 
+/// Value of a query in which each byte but letters and digits is encoded (RFC 3986, section 2.1).
+std::string query_encoded(const std::string& value) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (const unsigned char c : value) {
+    if (c < 0x80 && std::isalnum(c) != 0) text += static_cast<char>(c);
+    else (text += '%') += {kDigits[c >> 4U], kDigits[c & 15U]};
+  }
+  return text;
+}
+
 /// The id, which is then safe as a segment of a path.
 const std::string& checked_id(const std::string& id) {
   if (!is_id(id)) throw BadInput("\"" + id + "\" is no id of a sweep or a job");
@@ -80,6 +93,14 @@ RemoteService::RemoteService(const RemoteOptions& options)
 
 Json RemoteService::submit(Kind kind, const Json& request) {
   return read(client_.post(path_of(kind), to_text(request)));
+}
+
+Json RemoteService::submit_measurement(const std::string& text, const std::string& media_type,
+                                       const std::vector<std::pair<std::string, std::string>>& query) {
+  std::string path = "/v1/measurements";
+  for (const auto& [key, value] : query)
+    path += (path.find('?') == std::string::npos ? "?" : "&") + key + "=" + query_encoded(value);
+  return read(client_.post(path, text, media_type));
 }
 
 Json RemoteService::list_sweeps() { return read(client_.get("/v1/sweeps", "application/json")); }

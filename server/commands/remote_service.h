@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -32,6 +34,10 @@ class RemoteService {
   explicit RemoteService(const RemoteOptions& options);
 
   [[nodiscard]] nlohmann::ordered_json submit(Kind kind, const nlohmann::ordered_json& request);
+  /// Stores a measurement. @param query  keys and values @param media_type  of the text
+  [[nodiscard]] nlohmann::ordered_json submit_measurement(
+      const std::string& text, const std::string& media_type,
+      const std::vector<std::pair<std::string, std::string>>& query);
   /// The newest sweeps, {"items": [...], "next_cursor": ...}.
   [[nodiscard]] nlohmann::ordered_json list_sweeps();
   /// The sweep or job of that id. @throws BadInput if there is neither

@@ -75,8 +75,8 @@ class HttpClient::Impl {
     return take(client_.Get(url_.prefix + path, httplib::Headers{{"Accept", accept}}));
   }
 
-  Answer post(const std::string& path, const std::string& body) {
-    return take(client_.Post(url_.prefix + path, body, "application/json"));
+  Answer post(const std::string& path, const std::string& body, const std::string& media_type) {
+    return take(client_.Post(url_.prefix + path, body, media_type));
   }
 
  private:
@@ -100,7 +100,11 @@ HttpClient::Answer HttpClient::get(const std::string& path, const std::string& a
   return impl_->get(path, accept);
 }
 HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body) {
-  return impl_->post(path, body);
+  return impl_->post(path, body, "application/json");
+}
+HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body,
+                                    const std::string& media_type) {
+  return impl_->post(path, body, media_type);
 }
 
 }  // namespace server

@@ -47,6 +47,10 @@ class HttpClient {
   /// @param body  JSON; may be empty
   /// @throws Unreachable
   Answer post(const std::string& path, const std::string& body);
+  /// @param path        with its query, if any
+  /// @param media_type  of the body
+  /// @throws Unreachable
+  Answer post(const std::string& path, const std::string& body, const std::string& media_type);
 
  private:
   class Impl;
