@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "jobs/base/optional_json.h"
 #include "jobs/results/resource_json.h"
@@ -35,10 +36,12 @@ json metrics_json(const OptimisationRequest& request, const OptimisationCandidat
   return metrics;
 }
 
-json candidate_json(const OptimisationRequest& request, const OptimisationCandidate& candidate) {
+json candidate_json(const Optimiser& optimiser, const ListedCandidate& listed) {
+  const OptimisationRequest& request = optimiser.request();
+  const OptimisationCandidate& candidate = optimiser.candidates()[listed.index];
   return {{"values", values_json(request, candidate)},
           {"metrics", metrics_json(request, candidate)},
-          {"start", candidate.start},
+          {"start", value_or_null(listed.start)},
           {"job_ids", candidate.job_ids}};
 }
 
@@ -46,41 +49,49 @@ bool is_better(const OptimisationRequest& request, double a, double b) {
   return request.objectives.front().goal == Goal::kMinimise ? a < b : a > b;
 }
 
-/// Best value of the first objective of each start; empty where it has no feasible candidate.
-std::vector<std::optional<double>> best_of_starts(const Optimiser& optimiser) {
+/// Best value of the first objective of a start; empty if it has no feasible candidate.
+std::optional<double> best_of_start(const Optimiser& optimiser, std::size_t start) {
   const OptimisationRequest& request = optimiser.request();
-  std::vector<std::optional<double>> best(optimiser.starts().size());
+  std::optional<double> best;
   for (const OptimisationCandidate& candidate : optimiser.candidates()) {
+    if (!optimiser.starts()[start].seen.contains(candidate.values)) continue;
     if (state_of(request, candidate) != CandidateState::kFeasible) continue;
     const double value = objective_of(request, candidate, 0);
-    std::optional<double>& of_start = best[candidate.start];
-    if (!of_start || is_better(request, value, *of_start)) of_start = value;
+    if (!best || is_better(request, value, *best)) best = value;
   }
   return best;
 }
 
+std::size_t count_candidates(const Optimiser& optimiser, const StartSearch& start) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      optimiser.candidates(),
+      [&](const OptimisationCandidate& candidate) { return start.seen.contains(candidate.values); }));
+}
+
 json starts_json(const Optimiser& optimiser) {
   const bool single = optimiser.request().objectives.size() == 1;
-  const auto best = best_of_starts(optimiser);
   json made = json::array();
-  for (std::size_t k = 0; k < best.size(); ++k) {
+  for (std::size_t k = 0; k < optimiser.starts().size(); ++k) {
     const StartSearch& start = optimiser.starts()[k];
-    made.push_back({{"candidates", start.seen.size()},
+    made.push_back({{"candidates", count_candidates(optimiser, start)},
                     {"generations", start.search.generations()},
                     {"end", end_name(start.end)},
-                    {"best", single ? value_or_null(best[k]) : json()}});
+                    {"best", single ? value_or_null(best_of_start(optimiser, k)) : json()}});
   }
   return made;
 }
 
 /// Number of starts whose best value is that of the best one; null where there are several objectives.
-json repeats_json(const Optimiser& optimiser, const std::vector<std::size_t>& front) {
+json repeats_json(const Optimiser& optimiser, const std::vector<ListedCandidate>& front) {
   const OptimisationRequest& request = optimiser.request();
   if (request.objectives.size() > 1 || front.empty()) return nullptr;
-  const double best = objective_of(request, optimiser.candidates()[front.front()], 0);
-  return std::ranges::count_if(best_of_starts(optimiser), [&](const std::optional<double>& one) {
-    return one && std::abs(*one - best) <= kSameValue * std::abs(best);
-  });
+  const double best = objective_of(request, optimiser.candidates()[front.front().index], 0);
+  std::size_t repeats = 0;
+  for (std::size_t k = 0; k < optimiser.starts().size(); ++k) {
+    const auto one = best_of_start(optimiser, k);
+    if (one && std::abs(*one - best) <= kSameValue * std::abs(best)) ++repeats;
+  }
+  return repeats;
 }
 
 json lost_json(const Optimiser& optimiser) {
@@ -91,12 +102,13 @@ json lost_json(const Optimiser& optimiser) {
 }
 
 json count_states(const Optimiser& optimiser) {
+  const std::vector<ListedCandidate> listed = optimiser.list_candidates();
   json counts = json::object();
   for (const CandidateState state : {CandidateState::kPending, CandidateState::kFeasible,
                                      CandidateState::kInfeasible, CandidateState::kLost}) {
-    counts[std::string(state_name(state))] = std::ranges::count_if(
-        optimiser.candidates(),
-        [&](const OptimisationCandidate& one) { return state_of(optimiser.request(), one) == state; });
+    counts[std::string(state_name(state))] = std::ranges::count_if(listed, [&](const ListedCandidate& one) {
+      return state_of(optimiser.request(), optimiser.candidates()[one.index]) == state;
+    });
   }
   return counts;
 }
@@ -128,7 +140,7 @@ const std::vector<std::string>& optimisation_listing_keys() {
 json optimisation_json(const StudyRow& row, const Optimiser& optimiser, const SweepResults& results,
                        int threads) {
   const OptimisationRequest& request = optimiser.request();
-  const std::vector<std::size_t> front = optimiser.find_front();
+  const std::vector<ListedCandidate> front = optimiser.find_front();
   json made = optimisation_summary_json(row);
   made["method"] = request.method == PopulationMethod::kCmaEs ? "cma_es" : "nsga2";
   made["budget"] = request.budget;
@@ -140,8 +152,7 @@ json optimisation_json(const StudyRow& row, const Optimiser& optimiser, const Sw
   made["starts"] = starts_json(optimiser);
   made["best_repeats"] = repeats_json(optimiser, front);
   made["front"] = json::array();
-  for (const std::size_t k : front)
-    made["front"].push_back(candidate_json(request, optimiser.candidates()[k]));
+  for (const ListedCandidate& listed : front) made["front"].push_back(candidate_json(optimiser, listed));
   made["best"] = request.objectives.size() == 1 && !front.empty() ? made["front"].front() : json();
   made["request"] = json::parse(row.request);
   return made;
@@ -159,15 +170,16 @@ ResultTable candidate_table(const StudyRow& row, const Optimiser& optimiser) {
   for (const Variable& variable : request.variables) table.columns.push_back(variable.path);
   for (const Objective& objective : request.objectives) table.columns.push_back(objective.metric);
   for (const MetricBound& bound : request.bounds) table.columns.push_back(column_of(bound));
-  const std::vector<std::size_t> front = optimiser.find_front();
-  for (std::size_t k = 0; k < optimiser.candidates().size(); ++k) {
-    const OptimisationCandidate& candidate = optimiser.candidates()[k];
+  std::set<std::size_t> front;
+  for (const ListedCandidate& listed : optimiser.find_front()) front.insert(listed.index);
+  for (const ListedCandidate& listed : optimiser.list_candidates()) {
+    const OptimisationCandidate& candidate = optimiser.candidates()[listed.index];
     const CandidateState state = state_of(request, candidate);
-    std::vector<json> cells{k,
-                            candidate.start,
+    std::vector<json> cells{table.rows.size(),
+                            value_or_null(listed.start),
                             state_name(state),
                             state == CandidateState::kLost ? value_or_null(candidate.lost_reason) : json(),
-                            std::ranges::find(front, k) != front.end(),
+                            front.contains(listed.index),
                             candidate.job_ids.empty() ? json() : json(candidate.job_ids.front())};
     cells.insert(cells.end(), candidate.values.begin(), candidate.values.end());
     const bool has_values = state == CandidateState::kFeasible || state == CandidateState::kInfeasible;

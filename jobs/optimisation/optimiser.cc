@@ -124,7 +124,7 @@ void Optimiser::tell(const ResultRow& ended) {
 NextCases Optimiser::ask() {
   NextCases next;
   if (!cancelled_) {
-    for (std::size_t k = 0; k < starts_.size(); ++k) ask_start(k, next);
+    for (StartSearch& start : starts_) ask_start(start, next);
   }
   const bool waits =
       std::ranges::any_of(candidates_, [](const OptimisationCandidate& one) { return one.pending > 0; });
@@ -142,12 +142,30 @@ double Optimiser::progress() const {
   return sum / static_cast<double>(starts_.size());
 }
 
-std::vector<std::size_t> Optimiser::find_front() const {
-  std::vector<std::size_t> front;
+std::vector<ListedCandidate> Optimiser::list_candidates() const {
+  std::vector<ListedCandidate> listed;
+  std::vector<bool> is_listed(candidates_.size(), false);
+  const auto list = [&](std::size_t index, std::optional<std::size_t> start) {
+    const bool is_made = candidates_[index].pending == 0 || !candidates_[index].job_ids.empty();
+    if (is_made && !is_listed[index]) listed.push_back({.index = index, .start = start});
+    is_listed[index] = true;
+  };
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
+    for (const std::vector<double>& values : starts_[k].in_order) {
+      if (const auto known = indices_.find(values); known != indices_.end()) list(known->second, k);
+    }
+  }
+  for (std::size_t index = 0; index < candidates_.size(); ++index) list(index, std::nullopt);
+  return listed;
+}
+
+std::vector<ListedCandidate> Optimiser::find_front() const {
+  std::vector<ListedCandidate> front;
   std::vector<std::vector<double>> values;  // of the front
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    if (state_of(request_, candidates_[k]) != CandidateState::kFeasible) continue;
-    const std::vector<double> one = minimised_of(request_, candidates_[k]);
+  for (const ListedCandidate& listed : list_candidates()) {
+    const OptimisationCandidate& candidate = candidates_[listed.index];
+    if (state_of(request_, candidate) != CandidateState::kFeasible) continue;
+    const std::vector<double> one = minimised_of(request_, candidate);
     const auto is_as_good = [&](const auto& other) { return other == one || dominates(other, one); };
     if (std::ranges::any_of(values, is_as_good)) continue;
     for (std::size_t i = front.size(); i-- > 0;) {
@@ -155,7 +173,7 @@ std::vector<std::size_t> Optimiser::find_front() const {
       front.erase(front.begin() + static_cast<std::ptrdiff_t>(i));
       values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    front.push_back(k);
+    front.push_back(listed);
     values.push_back(one);
   }
   return front;
@@ -212,14 +230,12 @@ std::optional<std::vector<double>> Optimiser::find_fitness(const std::vector<dou
   return std::vector<double>(n, kLostFitness);
 }
 
-void Optimiser::ask_start(std::size_t index, NextCases& next) {
-  StartSearch& start = starts_[index];
+void Optimiser::ask_start(StartSearch& start, NextCases& next) {
   const std::size_t share = request_.budget / starts_.size();
   while (start.end == StartEnd::kRunning) {
     const auto missing = start.search.ask([&](const UnitPoint& point) {
       const std::vector<double> values = candidate_at(request_, point);
-      if (start.seen.insert(values).second && indices_.contains(values))
-        candidates_[indices_.at(values)].start = index;
+      if (start.seen.insert(values).second) start.in_order.push_back(values);
       return find_fitness(values);
     });
     if (missing.empty()) start.end = StartEnd::kConverged;
@@ -231,7 +247,6 @@ void Optimiser::ask_start(std::size_t index, NextCases& next) {
       const bool is_new = !indices_.contains(values);
       OptimisationCandidate& candidate = candidates_[index_of(values)];
       if (is_new) {
-        candidate.start = index;
         ordered_json one_case = case_of(request_, values);
         if (is_valid(one_case)) {
           candidate.pending = jobs_of_a_candidate(request_);

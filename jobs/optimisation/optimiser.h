@@ -24,7 +24,6 @@ inline constexpr std::string_view kInvalidParameters = "invalid_parameters";
 /// Values of the variables, and the metrics of their jobs.
 struct OptimisationCandidate {
   std::vector<double> values;  ///< one a variable
-  std::size_t start = 0;       ///< the one that asked for it first
   std::size_t pending = 0;     ///< jobs that have not ended
   std::vector<std::string> job_ids{};
   /// Over the jobs, for each objective and then for each bound
@@ -53,8 +52,15 @@ enum class StartEnd { kRunning, kConverged, kBudget };
 /// Search from one start.
 struct StartSearch {
   PopulationSearch search;
-  std::set<std::vector<double>> seen{};  ///< candidates that it has asked for
+  std::set<std::vector<double>> seen{};         ///< candidates that it has asked for
+  std::vector<std::vector<double>> in_order{};  ///< the same, in the order of asking
   StartEnd end = StartEnd::kRunning;
+};
+
+/// Candidate, by its index, and the first of the starts that asked for it.
+struct ListedCandidate {
+  std::size_t index = 0;
+  std::optional<std::size_t> start{};  ///< empty: none did, as of a job added to the sweep by hand
 };
 
 /// Sampler of an optimisation. All of it follows from the request and the results of the jobs, so that a
@@ -72,8 +78,11 @@ class Optimiser final : public StudySampler {
   [[nodiscard]] const OptimisationRequest& request() const { return request_; }
   [[nodiscard]] const std::vector<OptimisationCandidate>& candidates() const { return candidates_; }
   [[nodiscard]] const std::vector<StartSearch>& starts() const { return starts_; }
+  /// All candidates whose jobs are made, start by start: in an order that does not depend on the order in
+  /// which jobs ended.
+  [[nodiscard]] std::vector<ListedCandidate> list_candidates() const;
   /// Feasible candidates that no other one is better than in every objective: one or more if any is feasible.
-  [[nodiscard]] std::vector<std::size_t> find_front() const;
+  [[nodiscard]] std::vector<ListedCandidate> find_front() const;
   /// Faults of the first candidate whose parameters do not fit together.
   [[nodiscard]] const std::optional<InvalidRequest>& first_invalid() const { return first_invalid_; }
 
@@ -84,7 +93,7 @@ class Optimiser final : public StudySampler {
   void take_result(const ResultRow& job, OptimisationCandidate& candidate);
   [[nodiscard]] std::optional<std::vector<double>> find_fitness(const std::vector<double>& values) const;
   /// Cases of the next candidates of one start.
-  void ask_start(std::size_t index, NextCases& next);
+  void ask_start(StartSearch& start, NextCases& next);
   [[nodiscard]] bool is_valid(const nlohmann::ordered_json& one_case);
   void end_study(NextCases& next) const;
 

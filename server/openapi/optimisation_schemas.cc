@@ -105,7 +105,7 @@ Json make_candidate() {
                     {"metrics", described({{"type", "object"}},
                                           "objectives, and bounds with _at_most or "
                                           "_at_least behind the metric")},
-                    {"start", kCount},
+                    {"start", or_null(kCount)},
                     {"job_ids", list_of(ref("Id"))}});
 }
 
@@ -158,7 +158,7 @@ Json make_optimisation() {
 Json make_candidate_row() {
   Json row =
       options_of({{"candidate", kCount},
-                  {"start", kCount},
+                  {"start", or_null(kCount)},
                   {"state", {{"type", "string"}, {"enum", {"pending", "feasible", "infeasible", "lost"}}}},
                   {"lost_reason", or_null(kText)},
                   {"on_front", {{"type", "boolean"}}},

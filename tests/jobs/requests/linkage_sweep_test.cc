@@ -59,7 +59,6 @@ TEST(LinkageSweep, HasCasesOfNumbersInsideADescription) {
   EXPECT_EQ(pointer_of({{"linkage.bodies.rood.mass_kg", 1}}), "/cases/0/linkage.bodies.rood.mass_kg");
   EXPECT_EQ(pointer_of({{"linkage.bodies.rod.inertia_kg_m2.7", 1}}),
             "/cases/0/linkage.bodies.rod.inertia_kg_m2.7");
-  EXPECT_EQ(pointer_of({{"linkage", "rpsup"}, {path, 1}}), "/cases/0/" + path);
 }
 
 // Rows of one point are known by the values that they show.

@@ -20,7 +20,7 @@ from collections import Counter
 from service import NoAnswer, Service, check, check_integrity, copy_store, small_sweep, temporary_folder
 
 KINDS = 12  # different requests; the same again reuses results, unless it asks not to
-STUDIES = {4: "/v1/searches", 7: "/v1/wear-studies", 10: "/v1/searches"}  # by kind; the others are sweeps
+STUDIES = {4: "/v1/searches", 7: "/v1/wear-studies", 10: "/v1/optimisations"}  # by kind; the others are sweeps
 
 
 class Ledger:
@@ -54,6 +54,8 @@ def request_of(number):
     request["reuse"] = number // KINDS % 2 == 1
     if path == "/v1/wear-studies":
         return {**request, "parameters": {**request["parameters"], "clearance_mm": 0.2}, "hours": 1e4, "max_cycles": 3}
+    if path == "/v1/optimisations":  # the second generation with what the first has shown
+        return {**request, "over": {"clearance_mm": {"from": 0.02, "to": 0.5}}, "objectives": [{"metric": "peak_slider_acceleration_m_s2"}], "budget": 12, "starts": 1}
     over = {"from": 0.02, "to": 0.5, "first": 3, "tolerance": 0.02}  # then it halves, each time with what the last job has shown
     return {**request, "over": {"clearance_mm": over}, "metric": "peak_slider_acceleration_m_s2", "bound": 100}
 
@@ -104,7 +106,7 @@ def client(service, ledger, seed, stop):
             if known:
                 table(service, dice.choice(known))
                 ledger.count("tables read")
-            service.get(f"{dice.choice(('/v1/sweeps', '/v1/searches', '/v1/wear-studies'))}?limit=20")
+            service.get(f"{dice.choice(('/v1/sweeps', *sorted(set(STUDIES.values()))))}?limit=20")
             ledger.count("lists read")
             time.sleep(dice.random() * 0.05)
     except NoAnswer:
@@ -126,7 +128,7 @@ def all_of(service, path, state=""):
 def run_round(program, store, folder, ledger, dice, longest):
     service = Service(program, store, "--threads", "2")
     ready = service.seconds_until_ready()
-    for path in ("/v1/sweeps", "/v1/searches", "/v1/wear-studies"):
+    for path in ("/v1/sweeps", *sorted(set(STUDIES.values()))):
         there = {f"{path}/{item['id']}" for item in all_of(service, path)}
         missing = {one for one in ledger.acknowledged.values() if one.startswith(path + "/")} - there
         check(not missing, f"acknowledged and lost: {missing}")
@@ -194,7 +196,7 @@ def check_end(service, ledger, expected):
             gone_on += path in ledger.interrupted
         else:  # cancelled, and killed before it could answer so
             check(path in ledger.asked_to_cancel, f"{path} is {state}")
-    for path in ("/v1/sweeps", "/v1/searches", "/v1/wear-studies"):
+    for path in ("/v1/sweeps", *sorted(set(STUDIES.values()))):
         names = [item["name"] for item in all_of(service, path) if not item.get("study_id")]
         submitted = [f"kill {number}" for number in ledger.acknowledged if kind_path(number) == path]
         check(sorted(names) == sorted(submitted), f"each of {path} is to be stored once")
