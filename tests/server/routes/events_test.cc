@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/events.h"
 
+#include <array>
 #include <chrono>
 #include <list>
 #include <string>
@@ -175,6 +176,11 @@ TEST_P(StudyEvents, EndOnlyWithTheStudy) {
   EXPECT_EQ(json::parse(event_lines_of(rest, "data").back()).at("state"), "cancelled");
 }
 
+std::string name_of_study(const testing::TestParamInfo<StudyCase>& study) {
+  constexpr std::array<const char*, 3> kNames{"Search", "WearStudy", "Optimisation"};
+  return kNames.at(study.index);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Kinds, StudyEvents,
     testing::Values(
@@ -182,8 +188,10 @@ INSTANTIATE_TEST_SUITE_P(
                                                   "metric": "peak_slider_acceleration_m_s2",
                                      "bound": 0.53})"},
         StudyCase{"/v1/wear-studies",
-                  R"({"parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})"}),
-    [](const auto& study) { return std::string(study.index == 0 ? "Search" : "WearStudy"); });
+                  R"({"parameters": {"duration_s": 1, "run_up_s": 0}, "worn_clearance_mm": 0.253})"},
+        StudyCase{"/v1/optimisations", R"({"over": {"clearance_mm": {"from": 0.1, "to": 0.9}},
+                                           "objectives": [{"metric": "peak_slider_acceleration_m_s2"}]})"}),
+    name_of_study);
 
 class EventsOverHttp : public testing::Test {
  protected:

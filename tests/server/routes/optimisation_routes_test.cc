@@ -15,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 using server_tests::Bench;
+using server_tests::endless_run;
 using server_tests::header;
 
 const char* const kOptimisation = R"({"name": "tight", "parameters": {"duration_s": 1, "run_up_s": 0},
@@ -62,6 +63,16 @@ TEST(Optimisations, HandOutTheirCandidatesAsRows) {
   EXPECT_EQ(bench.call("DELETE", path).status, 204);
   EXPECT_EQ(bench.call("GET", path).status, 404);
   EXPECT_EQ(bench.call("GET", sweep).status, 404);
+}
+
+TEST(Optimisations, AreCancelledAndRetried) {
+  Bench bench(endless_run);
+  const std::string path = header(bench.call("POST", "/v1/optimisations", kOptimisation), "Location");
+  EXPECT_EQ(bench.call("GET", path + "/events").status, 200);
+  EXPECT_EQ(bench.call("DELETE", path).status, 409);
+  EXPECT_EQ(json::parse(bench.call("POST", path + "/cancel").body).at("state"), "cancelled");
+  EXPECT_EQ(json::parse(bench.call("POST", path + "/retry").body).at("state"), "running");
+  EXPECT_EQ(bench.call("POST", path + "/cancel").status, 200);
 }
 
 TEST(Optimisations, RefuseWhatIsNotUnderstood) {
