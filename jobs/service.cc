@@ -39,6 +39,13 @@ json ended_job_json(const EndedJob& job) {
           {"ended_at", time_text(job.ended_ms)}, {"reused", job.reused}};
 }
 
+/// "the search sch_...", of the study with that id.
+std::string name_of_study(const std::string& id) {
+  const auto kind = std::ranges::find_if(
+      kStudyKinds, [&](const StudyKindInfo& one) { return id.starts_with(one.id_prefix); });
+  return kind == kStudyKinds.end() ? id : "the " + std::string(kind->name) + " " + id;
+}
+
 }  // namespace
 
 Service::Service(ServiceOptions options)
@@ -145,6 +152,9 @@ std::optional<json> Service::extend_sweep(const std::string& id, const nlohmann:
   for (bool done = false; !done;) {  // again, if another extension came in between
     const auto sweep = store_->reader.find_sweep(id);
     if (!sweep) return std::nullopt;
+    if (sweep->study_id.value_or("").starts_with(kOptimisationPrefix))
+      throw WrongState("the sweep holds the jobs of " + name_of_study(*sweep->study_id) +
+                       ", which adds its cases by itself");
     const Extension extension =
         plan_extension(nlohmann::ordered_json::parse(sweep->request), addition, options_.max_sweep_jobs);
     done = extension.jobs.empty();
@@ -284,8 +294,7 @@ bool Service::delete_sweep(const std::string& id, const std::string& study) {
   if (outcome == DeleteOutcome::kOfStudy) {
     const auto sweep = store_->reader.find_sweep(id);
     const std::string owner = sweep ? sweep->study_id.value_or("") : "";
-    const char* const kind = owner.starts_with(kSearchPrefix) ? "search " : "wear study ";
-    throw WrongState("the sweep holds the jobs of the " + (kind + owner) +
+    throw WrongState("the sweep holds the jobs of " + name_of_study(owner) +
                      "; delete that one, and the sweep goes with it");
   }
   if (outcome == DeleteOutcome::kNotEnded) throw WrongState("the sweep has not ended; cancel it first");

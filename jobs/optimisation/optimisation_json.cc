@@ -63,19 +63,22 @@ std::optional<double> best_of_start(const Optimiser& optimiser, std::size_t star
 }
 
 std::size_t count_candidates(const Optimiser& optimiser, const StartSearch& start) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      optimiser.candidates(),
-      [&](const OptimisationCandidate& candidate) { return start.seen.contains(candidate.values); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(optimiser.list_candidates(), [&](const ListedCandidate& one) {
+        return start.seen.contains(optimiser.candidates()[one.index].values);
+      }));
 }
 
-json starts_json(const Optimiser& optimiser) {
+/// @param state  of the study
+json starts_json(const Optimiser& optimiser, const std::string& state) {
   const bool single = optimiser.request().objectives.size() == 1;
   json made = json::array();
   for (std::size_t k = 0; k < optimiser.starts().size(); ++k) {
     const StartSearch& start = optimiser.starts()[k];
+    const bool stopped = state != "running" && start.end == StartEnd::kRunning;
     made.push_back({{"candidates", count_candidates(optimiser, start)},
                     {"generations", start.search.generations()},
-                    {"end", end_name(start.end)},
+                    {"end", stopped ? "stopped" : end_name(start.end)},
                     {"best", single ? value_or_null(best_of_start(optimiser, k)) : json()}});
   }
   return made;
@@ -149,7 +152,7 @@ json optimisation_json(const StudyRow& row, const Optimiser& optimiser, const Sw
   made["progress"] = row.state == "running" ? optimiser.progress() : 1.0;
   made["candidates"] = count_states(optimiser);
   made["lost_reasons"] = lost_json(optimiser);
-  made["starts"] = starts_json(optimiser);
+  made["starts"] = starts_json(optimiser, row.state);
   made["best_repeats"] = repeats_json(optimiser, front);
   made["front"] = json::array();
   for (const ListedCandidate& listed : front) made["front"].push_back(candidate_json(optimiser, listed));

@@ -206,6 +206,11 @@ class OptimisationParser {
     const char* const end = given.contains("maximum") ? "maximum" : "minimum";
     if (!is_right(pointer + "/" + end, describe_number_fault({}, "", given.at(end)))) return;
     (given.contains("maximum") ? bound.maximum : bound.minimum) = given.at(end).get<double>();
+    const auto is_same = [&](const MetricBound& other) {
+      return other.metric == bound.metric && std::isfinite(other.maximum) == std::isfinite(bound.maximum);
+    };
+    if (std::ranges::any_of(made_.bounds, is_same))
+      fault(pointer, "bounds the metric on that side, as another one does");
     bound.quantile = read_quantile(given, pointer, given.contains("maximum") ? 1.0 : 0.0);
     made_.bounds.push_back(std::move(bound));
   }

@@ -19,8 +19,10 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 // Only the order of fitness counts: what is not feasible is worse than all that is, what has no value worst.
-constexpr double kInfeasibleFitness = 1e100;
+constexpr double kInfeasibleFitness = 1e100;  ///< times the violation
 constexpr double kLostFitness = 1e200;
+constexpr double kLeastViolation = 1e-15;
+constexpr double kMostViolation = 1e50;
 
 /// How far a candidate is beyond its bounds, relative to them; 0: it keeps them.
 double calc_violation(const OptimisationRequest& request, const OptimisationCandidate& candidate) {
@@ -123,11 +125,11 @@ void Optimiser::tell(const ResultRow& ended) {
 
 NextCases Optimiser::ask() {
   NextCases next;
-  if (!cancelled_) {
-    for (StartSearch& start : starts_) ask_start(start, next);
-  }
-  const bool waits =
-      std::ranges::any_of(candidates_, [](const OptimisationCandidate& one) { return one.pending > 0; });
+  for (StartSearch& start : starts_) ask_start(start, next);
+  if (cancelled_) next.cases.clear();  // the starts were only followed as far as the results go
+  const bool waits = std::ranges::any_of(candidates_, [&](const OptimisationCandidate& one) {
+    return one.pending > 0 && (!cancelled_ || !one.job_ids.empty());
+  });
   if (next.cases.empty() && !waits) end_study(next);
   return next;
 }
@@ -223,7 +225,8 @@ std::optional<std::vector<double>> Optimiser::find_fitness(const std::vector<dou
     case CandidateState::kFeasible:
       return minimised_of(request_, candidate);
     case CandidateState::kInfeasible:
-      return std::vector<double>(n, kInfeasibleFitness * (1.0 + calc_violation(request_, candidate)));
+      return std::vector<double>(n, kInfeasibleFitness * std::clamp(calc_violation(request_, candidate),
+                                                                    kLeastViolation, kMostViolation));
     case CandidateState::kLost:
       break;
   }
@@ -248,12 +251,9 @@ void Optimiser::ask_start(StartSearch& start, NextCases& next) {
       OptimisationCandidate& candidate = candidates_[index_of(values)];
       if (is_new) {
         ordered_json one_case = case_of(request_, values);
-        if (is_valid(one_case)) {
-          candidate.pending = jobs_of_a_candidate(request_);
-          next.cases.push_back(std::move(one_case));
-        } else {
-          candidate.lost_reason = std::string(kInvalidParameters);
-        }
+        candidate.pending = count_jobs(one_case);
+        if (candidate.pending > 0) next.cases.push_back(std::move(one_case));
+        else candidate.lost_reason = std::string(kInvalidParameters);
       }
       waits |= candidate.pending > 0;
     }
@@ -261,15 +261,14 @@ void Optimiser::ask_start(StartSearch& start, NextCases& next) {
   }
 }
 
-bool Optimiser::is_valid(const ordered_json& one_case) {
+std::size_t Optimiser::count_jobs(const ordered_json& one_case) {
   ordered_json sweep = common_sweep_;
   sweep["cases"] = ordered_json::array({one_case});
   try {
-    (void)plan_sweep(sweep, std::numeric_limits<std::size_t>::max());
-    return true;
+    return plan_sweep(sweep, std::numeric_limits<std::size_t>::max()).jobs.size();
   } catch (const InvalidRequest& invalid) {
     if (!first_invalid_) first_invalid_ = invalid;
-    return false;
+    return 0;
   }
 }
 

@@ -94,7 +94,8 @@ class Optimiser final : public StudySampler {
   [[nodiscard]] std::optional<std::vector<double>> find_fitness(const std::vector<double>& values) const;
   /// Cases of the next candidates of one start.
   void ask_start(StartSearch& start, NextCases& next);
-  [[nodiscard]] bool is_valid(const nlohmann::ordered_json& one_case);
+  /// Number of jobs of a case; 0 if its parameters do not fit together.
+  [[nodiscard]] std::size_t count_jobs(const nlohmann::ordered_json& one_case);
   void end_study(NextCases& next) const;
 
   const OptimisationRequest request_;

@@ -117,6 +117,7 @@ class PopulationSearch::State {
       population_ = std::move(next);
       algorithm_ = std::move(algorithm);
       history_.push_back(summarise(*population_));
+      if (options_.objectives == 1 && history_.size() > 1) keep_best();
       converged_ = converged_ || has_converged();
     }
     return {};
@@ -135,6 +136,12 @@ class PopulationSearch::State {
         options_.start ? options_.population - 1 : options_.population, options_.seed);
     if (options_.start) made.push_back(*options_.start);
     return made;
+  }
+
+  /// A generation of CMA-ES may be worse than the one before: the best so far counts.
+  void keep_best() {
+    const Summary& before = history_[history_.size() - 2];
+    if (before.values.front() < history_.back().values.front()) history_.back() = before;
   }
 
   /// Whether the last generations have gained too little: as many as Hansen's criterion of equal function

@@ -112,7 +112,7 @@ Json make_candidate() {
 Json make_start() {
   return object_of({{"candidates", kCount},
                     {"generations", described(kCount, "that are complete")},
-                    {"end", {{"type", "string"}, {"enum", {"running", "converged", "budget"}}}},
+                    {"end", {{"type", "string"}, {"enum", {"running", "converged", "budget", "stopped"}}}},
                     {"best", or_null(kNumber)}});
 }
 

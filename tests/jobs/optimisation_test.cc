@@ -112,6 +112,28 @@ TEST(Optimisation, TakesTheWorstOverAxesAndReplicates) {
   EXPECT_NEAR(least.at("best").at("metrics").at(metric()).get<double>(), std::sqrt(2000.0), 0.1);
 }
 
+TEST(Optimisation, WaitsForTheJobsThatEachCandidateHas) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  ordered_json request = least_request();
+  request["over"] = {{"clearance_mm", {{"from", 0.1}, {"to", 0.2}}}};
+  request.erase("parameters");
+  request["sweep"] = {{"crank_velocity_rad_s", {2, 3}}};
+  request["replicates"] = {{"count", 3}, {"only", {{"crank_velocity_rad_s", {3}}}}};
+  request["budget"] = 24;
+  EXPECT_EQ(run(service, request).at("best").at("job_ids").size(), 4U);
+}
+
+TEST(Optimisation, AddsItsCasesByItself) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  const json ended = run(service, least_request());
+  EXPECT_THROW(service.extend_sweep(ended.at("sweep_id"), {{"cases", {{{"crank_velocity_rad_s", 20}}}}}),
+               jobs::WrongState);
+}
+
 TEST(Optimisation, PassesByJobsThatFail) {
   const TemporaryStore store;
   FakeEngine engine;
@@ -228,6 +250,8 @@ TEST(Optimisation, IsCancelledRetriedAndDeleted) {
   const std::string id = service.submit_study(kKind, least_request()).at("id");
   EXPECT_THROW(service.delete_study(kKind, id), jobs::WrongState);
   EXPECT_EQ(service.cancel_study(kKind, id).value().at("state"), "cancelled");
+  for (const json& start : service.find_study(kKind, id).value().at("starts"))
+    EXPECT_EQ(start.at("end"), "stopped");
   engine.release();
   EXPECT_EQ(service.retry_study(kKind, id).value().at("state"), "running");
   const json ended = wait_for_study(service, id);
@@ -266,6 +290,9 @@ TEST(Optimisation, NamesEveryFaultOfARequest) {
   EXPECT_EQ(faults("bounds", {{{"metric", metric()}, {"maximum", "1"}}}), Pointers{"/bounds/0/maximum"});
   EXPECT_EQ(faults("bounds", {{{"metric", metric()}, {"maximum", 1}, {"quantile", 2}}}),
             Pointers{"/bounds/0/quantile"});
+  EXPECT_EQ(faults("bounds", {{{"metric", metric()}, {"maximum", 1}, {"quantile", 0.5}},
+                              {{"metric", metric()}, {"maximum", 2}}}),
+            Pointers{"/bounds/1"});
   EXPECT_EQ(faults("budget", 1000000), Pointers{"/budget"});
   EXPECT_EQ(faults("budget", 6), Pointers{"/budget"});
   EXPECT_EQ(faults("population", 3), Pointers{"/population"});
