@@ -277,7 +277,8 @@ class SweepParser {
     }
     for (std::size_t i = 0; i < sweep_.cases.size(); ++i) {
       for (const std::string& path : paths_of(request_.at("cases")[i])) {
-        const std::string pointer = "/cases" + pointer_token(std::to_string(i)) + pointer_of_path(path);
+        const std::string place = is_path_in_description(path) ? pointer_token(path) : pointer_of_path(path);
+        const std::string pointer = "/cases" + pointer_token(std::to_string(i)) + place;
         if (fixed.contains(path)) fault(pointer, "stands in parameters, too");
         if (axes.contains(path)) fault(pointer, "is an axis of sweep, too");
         if (design.contains(path)) fault(pointer, "stands in the design, too");

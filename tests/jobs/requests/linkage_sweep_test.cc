@@ -12,6 +12,7 @@
 
 #include "jobs/base/errors.h"
 #include "jobs/requests/expand.h"
+#include "jobs/requests/extend_request.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/requests/example_linkage.h"
@@ -59,6 +60,16 @@ TEST(LinkageSweep, HasCasesOfNumbersInsideADescription) {
   EXPECT_EQ(pointer_of({{"linkage.bodies.rood.mass_kg", 1}}), "/cases/0/linkage.bodies.rood.mass_kg");
   EXPECT_EQ(pointer_of({{"linkage.bodies.rod.inertia_kg_m2.7", 1}}),
             "/cases/0/linkage.bodies.rod.inertia_kg_m2.7");
+}
+
+TEST(LinkageSweep, IsExtendedByNumbersInsideADescription) {
+  const std::string path = "linkage.bodies.rod.mass_kg";
+  const nlohmann::ordered_json request{{"parameters", example("slider_crank")}, {"cases", {{{path, 0.2}}}}};
+  EXPECT_EQ(jobs::plan_extension(request, {{"cases", {{{path, 0.25}}}}}, 100).jobs.size(), 1U);
+  EXPECT_EQ(pointers_of(faults_of([&] {
+              (void)jobs::plan_extension(request, {{"cases", {{{path, "heavy"}}}}}, 100);
+            })),
+            std::vector<std::string>{"/cases/0/" + path});
 }
 
 // Rows of one point are known by the values that they show.
