@@ -48,7 +48,13 @@ void add_time_faults(std::span<const double> time_s,
                      const Fault& fault_of_all, std::vector<Fault>& faults) {
   if (time_s.size() < kFewestMeasuredSamples) faults.push_back(fault_of_all);
   for (std::size_t k = 1; k < time_s.size(); ++k) {
-    if (time_s[k] > time_s[k - 1]) continue;
+    const double step = time_s[k] - time_s[k - 1];
+    const bool is_resolved = std::isfinite(time_s[k] - time_s.front()) && std::isfinite(1.0 / step);
+    if (step > 0.0 && is_resolved) continue;
+    if (step > 0.0) {
+      faults.push_back(fault_at(k, "the time is too far from or too near to the one before"));
+      return;
+    }
     faults.push_back(fault_at(k, "the time must increase; " + readable_number(time_s[k]) + " s follows " +
                                      readable_number(time_s[k - 1]) + " s"));
     if (faults.size() >= kMostFileFaults) return;

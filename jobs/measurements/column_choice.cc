@@ -33,6 +33,9 @@ class ColumnChooser {
 
  private:
   void check_names_differ() {
+    if (names_.size() > kMostMeasuredColumns)
+      refuse_body("has " + std::to_string(names_.size()) + " columns; at most " +
+                  std::to_string(kMostMeasuredColumns) + " are allowed");
     std::set<std::string_view> met;
     for (std::size_t i = 0; i < names_.size(); ++i)
       if (!met.insert(names_[i]).second)
@@ -46,9 +49,11 @@ class ColumnChooser {
   }
 
   [[nodiscard]] std::string unknown_column(std::string_view name) const {
+    constexpr std::size_t kMostNamed = 20;
     std::string text = "there is no column " + quoted_text(name) + "; the file has ";
-    for (std::size_t i = 0; i < names_.size(); ++i) text += (i > 0 ? ", " : "") + quoted_text(names_[i]);
-    return text;
+    for (std::size_t i = 0; i < std::min(kMostNamed, names_.size()); ++i)
+      text += (i > 0 ? ", " : "") + quoted_text(names_[i]);
+    return names_.size() > kMostNamed ? text + ", ..." : text;
   }
 
   void choose_time() {

@@ -41,6 +41,7 @@ inline constexpr const char* kTimeColumn = "time_s";
 inline constexpr const char* kTrajectoryTime = "t_s";
 inline constexpr std::size_t kFewestMeasuredSamples = 2;
 inline constexpr std::size_t kMostMeasuredChannels = 200;
+inline constexpr std::size_t kMostMeasuredColumns = 1000;  ///< of a file, chosen or not
 inline constexpr std::size_t kMostMeasuredRuns = 1000;
 /// Numbers of a measurement, times among them: 64 MB.
 inline constexpr std::size_t kMostMeasuredValues = 8'000'000;

@@ -57,7 +57,9 @@ std::vector<std::string_view> split_runs(std::string_view blob) {
 
 PackedMeasurement pack(const Measurement& measurement) {
   return {.name = measurement.name,
-          .description = measurement_json(measurement).dump(),
+          // Names of columns may have any bytes.
+          .description =
+              measurement_json(measurement).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
           .samples = encode_samples(measurement)};
 }
 

@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "jobs/base/errors.h"
 #include "jobs/measurements/read_measurement_csv.h"
 #include "jobs/measurements/read_measurement_json.h"
 #include "jobs/measurements/read_measurement_npz.h"
@@ -52,13 +54,24 @@ MeasurementForm form_of(const std::string& content_type) {
   return found->second;
 }
 
+/// Refuses the keys of CSV and NPZ beside a JSON body. @throws jobs::InvalidRequest
+void refuse_column_keys(const Query& query) {
+  query.check();
+  std::vector<jobs::Fault> faults;
+  for (const char* const key : {"name", "time", "channels"}) {
+    if (query.text(key))
+      faults.push_back({std::string("/") + key, "is for CSV and NPZ; a JSON body says it in itself"});
+  }
+  if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
+}
+
 jobs::Measurement read_measurement(const Request& request) {
   const MeasurementForm form = form_of(request.content_type);
+  Query query(request, {"name", "time", "channels"});
   if (form == MeasurementForm::kJson) {
-    Query(request, {}).check();
+    refuse_column_keys(query);
     return jobs::read_measurement_json(parse_json(request.body, kMostMeasurementJsonValues));
   }
-  Query query(request, {"name", "time", "channels"});
   const jobs::ColumnQuery columns{.name = query.text("name").value_or(""),
                                   .time = query.text("time").value_or(""),
                                   .channels = query.list("channels")};

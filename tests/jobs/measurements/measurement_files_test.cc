@@ -47,6 +47,17 @@ void expect_measured(const Measurement& measured) {
   EXPECT_EQ(measured.runs[0].columns[1], (std::vector<double>{-2, 1e-3, 4}));
 }
 
+TEST(MeasurementCsv, RefusesMoreColumnsThanAnyRigHas) {
+  std::string header = "time_s";
+  for (int k = 0; k < 2000; ++k) header += ",c" + std::to_string(k) + "_m";
+  EXPECT_THAT(csv_refusal(header + "\n"), HasSubstr("has 2001 columns; at most 1000"));
+}
+
+TEST(MeasurementCsv, RefusesTimesThatNoRateDescribes) {
+  EXPECT_THAT(csv_refusal("time_s,x_m\n-1e308,1\n1e308,2\n"), HasSubstr("too far from or too near to"));
+  EXPECT_THAT(csv_refusal("time_s,x_m\n0,1\n5e-324,2\n"), HasSubstr("too far from or too near to"));
+}
+
 TEST(MeasurementCsv, ReadsTimeAndChannels) {
   const Measurement measured = jobs::read_measurement_csv(kMeasuredCsv, {.name = "bench"});
   EXPECT_EQ(measured.name, "bench");
