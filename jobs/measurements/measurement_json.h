@@ -7,7 +7,7 @@
 
 namespace jobs {
 
-/// What is stored of a measurement beside its samples, and shown in its resource:
+/// Description of a measurement, which the store keeps beside the samples and the resource shows:
 ///
 ///     {"samples", "duration_s",
 ///      "channels": [{"name", "unit", "column", "sign", "gain", "offset", "delay_s", "low_pass_hz"}, ...],

@@ -24,7 +24,7 @@ constexpr double kLostFitness = 1e200;
 constexpr double kLeastViolation = 1e-15;
 constexpr double kMostViolation = 1e50;
 
-/// How far a candidate is beyond its bounds, relative to them; 0: it keeps them.
+/// Excess of a candidate over its bounds, relative to them; 0: all bounds are kept.
 double calc_violation(const OptimisationRequest& request, const OptimisationCandidate& candidate) {
   double sum = 0.0;
   for (std::size_t k = 0; k < request.bounds.size(); ++k) {

@@ -63,7 +63,7 @@ Algorithm make_algorithm(const PopulationOptions& options) {
   return pagmo::nsga2(1, 0.95, 10.0, mutation, 20.0, options.seed);  // as the paper has them
 }
 
-/// How far a population has come.
+/// Progress of a population.
 struct Summary {
   std::vector<double> values;  ///< least one and mean of the first front, for each objective
   std::vector<double> scales;  ///< by which their changes are judged

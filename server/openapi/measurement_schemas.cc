@@ -104,7 +104,7 @@ Json make_measurement() {
 }  // namespace
 
 Json make_measurement_schemas() {
-  // Of the items of a page, ?fields= may leave keys out.
+  // Items of a page may lack keys that ?fields= leaves out.
   return {{"MeasurementRequest", make_measurement_request()},
           {"Measurement", make_measurement()},
           {"MeasurementSummary", options_of(measurement_properties())},

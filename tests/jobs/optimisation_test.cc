@@ -209,7 +209,7 @@ TEST(Optimisation, VariesNumbersOfADescribedLinkage) {
                        {"starts", 1}};
   const json ended = run(service, request);
   ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
-  // What the pin bears is proportional to the mass.
+  // The reaction of the pin is proportional to the mass.
   EXPECT_LT(ended.at("best").at("values").at("linkage.bodies.bob.mass_kg").get<double>(), 0.7);
   request["objectives"][0]["metric"] = metric();
   EXPECT_EQ(optimisation_faults_of(service, request), (std::set<std::string>{"/objectives/0/metric"}));

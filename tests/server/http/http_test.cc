@@ -110,7 +110,8 @@ TEST_F(Http, TakesALargerBodyOfAMeasurement) {
             201);
   EXPECT_EQ(status_of(post("/v1/sweeps", csv)), 413);
   const std::string length = "Content-Length: " + std::to_string(kMeasurementBodyBytes + 1);
-  EXPECT_EQ(status_of(ask("POST /v1/measurements HTTP/1.1\r\nHost: localhost\r\n" + length + "\r\n\r\n")), 413);
+  EXPECT_EQ(
+      status_of(ask("POST /v1/measurements HTTP/1.1\r\nHost: localhost\r\n" + length + "\r\n\r\n")), 413);
 }
 
 TEST_F(Http, TakesABodyOfExactlyTheLimit) {

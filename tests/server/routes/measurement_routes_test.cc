@@ -59,7 +59,7 @@ TEST(MeasurementRoutes, TakeCsvAndGiveItBack) {
   const auto csv = bench.call("GET", path + "/data", "", {{"format", "csv"}});
   EXPECT_EQ(csv.body, "t_s,slider_acceleration_m_s2,force_n\r\n0,1.5,-2\r\n0.001,-1.5,0.5\r\n0.0025,0,4\r\n");
   EXPECT_NE(header(csv, "Content-Disposition").find("measurement-mea_"), std::string::npos);
-  // What is handed out can be sent again, as CSV and as NPZ.
+  // An answer can be sent again, as CSV and as NPZ.
   const auto again = post_measured(bench, csv.body, "text/csv");
   const auto npz = bench.call("GET", path + "/data", "", {{"format", "npz"}});
   const auto from_npz = post_measured(bench, npz.body, "application/x-npz");

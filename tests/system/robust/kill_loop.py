@@ -55,7 +55,8 @@ def request_of(number):
     if path == "/v1/wear-studies":
         return {**request, "parameters": {**request["parameters"], "clearance_mm": 0.2}, "hours": 1e4, "max_cycles": 3}
     if path == "/v1/optimisations":  # the second generation with what the first has shown
-        return {**request, "over": {"clearance_mm": {"from": 0.02, "to": 0.5}}, "objectives": [{"metric": "peak_slider_acceleration_m_s2"}], "budget": 12, "starts": 1}
+        over = {"clearance_mm": {"from": 0.02, "to": 0.5}}
+        return {**request, "over": over, "objectives": [{"metric": "peak_slider_acceleration_m_s2"}], "budget": 12, "starts": 1}
     over = {"from": 0.02, "to": 0.5, "first": 3, "tolerance": 0.02}  # then it halves, each time with what the last job has shown
     return {**request, "over": {"clearance_mm": over}, "metric": "peak_slider_acceleration_m_s2", "bound": 100}
 
