@@ -250,8 +250,8 @@ TEST(Optimisation, IsCancelledRetriedAndDeleted) {
   const std::string id = service.submit_study(kKind, least_request()).at("id");
   EXPECT_THROW(service.delete_study(kKind, id), jobs::WrongState);
   EXPECT_EQ(service.cancel_study(kKind, id).value().at("state"), "cancelled");
-  for (const json& start : service.find_study(kKind, id).value().at("starts"))
-    EXPECT_EQ(start.at("end"), "stopped");
+  const json cancelled = service.find_study(kKind, id).value();
+  for (const json& start : cancelled.at("starts")) EXPECT_EQ(start.at("end"), "stopped");
   engine.release();
   EXPECT_EQ(service.retry_study(kKind, id).value().at("state"), "running");
   const json ended = wait_for_study(service, id);
