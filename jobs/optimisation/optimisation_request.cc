@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
+#include "jobs/parameters/unit_scale.h"
 #include "jobs/requests/axis.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
@@ -86,52 +86,11 @@ class OptimisationParser {
                    "must be an object of parameters, {\"rod_length_m\": {\"from\": 0.1, \"to\": 0.3}}, say");
     if (request_.at("over").size() > kMostVariables)
       return fault("/over", "has more than " + std::to_string(kMostVariables) + " parameters");
-    for (const auto& [path, span] : request_.at("over").items())
-      read_variable(path, json(span), "/over" + pointer_token(path));
-  }
-
-  void read_variable(const std::string& path, const json& given, const std::string& pointer) {
-    if (!is_known_path(path, pointer, faults_)) return;
-    if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
-    if (!check_place(path, pointer)) return;
-    if (!given.is_object()) return fault(pointer, "must be an object of from, to, scale and start");
-    constexpr std::array<std::string_view, 1> kOthers{"start"};
-    const std::size_t before = faults_.size();
-    const auto span = read_span(given, kOthers, pointer, faults_);
-    if (!span || faults_.size() > before) return;
-    if (span->from >= span->to) return fault(pointer + "/to", "must be above from");
-    for (const char* const end : {"from", "to", "start"}) {
-      if (given.contains(end)) check_value(path, given.at(end), pointer + "/" + end);
+    for (const auto& [path, span] : request_.at("over").items()) {
+      const std::string pointer = "/over" + pointer_token(path);
+      if (auto variable = read_variable(path, json(span), pointer, request_, made_.common, faults_))
+        made_.variables.push_back(std::move(*variable));
     }
-    if (faults_.size() > before) return;
-    const ParameterInfo* const info = find_parameter(path);
-    Variable variable{
-        .path = path, .span = *span, .integer = info != nullptr && info->kind == ParameterKind::kInteger};
-    if (given.contains("start")) {
-      variable.start = given.at("start").get<double>();
-      if (*variable.start < span->from || *variable.start > span->to)
-        return fault(pointer + "/start", "must be between from and to");
-    }
-    made_.variables.push_back(std::move(variable));
-  }
-
-  /// A parameter has one place: over, sweep or parameters; a number of a description stands in one.
-  bool check_place(const std::string& path, const std::string& pointer) {
-    const std::size_t before = faults_.size();
-    const auto& swept = made_.common.swept;
-    if (std::ranges::find(swept, path) != swept.end()) fault(pointer, "is an axis of sweep, too");
-    if (request_.contains("parameters")) {
-      const auto fixed = paths_of(request_.at("parameters"));
-      if (std::ranges::find(fixed, path) != fixed.end()) fault(pointer, "stands in parameters, too");
-    }
-    if (is_path_in_description(path))
-      is_right(pointer, describe_description_path_fault(made_.common.parameters, path));
-    return faults_.size() == before;
-  }
-
-  void check_value(const std::string& path, const json& value, const std::string& pointer) {
-    if (!value.is_number()) return fault(pointer, "must be a number");
-    for (const Fault& found : find_path_faults(path, value)) fault(pointer, found.detail);
   }
 
   void read_objectives() {
@@ -287,11 +246,8 @@ std::optional<UnitPoint> start_of(const OptimisationRequest& request) {
   UnitPoint point;
   bool given = false;
   for (const Variable& variable : request.variables) {
-    const auto& [from, to, logarithmic] = variable.span;
     given |= variable.start.has_value();
-    if (!variable.start) point.push_back(0.5);
-    else if (logarithmic) point.push_back(std::log(*variable.start / from) / std::log(to / from));
-    else point.push_back((*variable.start - from) / (to - from));
+    point.push_back(variable.start ? part_at(variable.span, *variable.start) : 0.5);
   }
   return given ? std::optional(point) : std::nullopt;
 }

@@ -14,8 +14,8 @@
 
 #include "jobs/optimisation/population_search.h"
 #include "jobs/parameters/range.h"
-#include "jobs/parameters/span.h"
 #include "jobs/requests/sweep_request.h"
+#include "jobs/requests/variable.h"
 
 namespace jobs {
 
@@ -29,14 +29,6 @@ inline constexpr Range kBudgetRange{.minimum = 5, .maximum = 1e6};
 inline constexpr Range kPopulationRange{.minimum = 5, .maximum = 1000};
 inline constexpr Range kStartsRange{.minimum = 1, .maximum = 20};
 inline constexpr Range kOptimiserSeedRange{.minimum = 0, .maximum = 4294967295.0};
-
-/// Parameter that an optimisation varies.
-struct Variable {
-  std::string path;
-  Span span;
-  bool integer = false;
-  std::optional<double> start{};  ///< value in the first generation
-};
 
 enum class Goal { kMinimise, kMaximise };
 
