@@ -42,13 +42,22 @@ struct TextColumn {
   std::vector<std::string_view> words;
 };
 
+/// Columns of studies that hold text.
+constexpr std::array<std::string_view, 8> kTextColumns{
+    "verdict", "lost_reason", "parameter", "metric", "stage", "use", "channel", "measurement_id"};
+
+/// States of jobs, of candidates and of the points of a fit.
+std::vector<std::string_view> words_of_state() {
+  std::vector<std::string_view> words(kJobStates.begin(), kJobStates.end());
+  words.insert(words.end(), {"pending", "feasible", "infeasible", "lost"});
+  return words;
+}
+
 TextColumn text_column(const std::string& column) {
   if (column == "job_id" || is_error_column(column)) return {.is_text = true, .words = {}};
-  if (column == "state") return {.is_text = true, .words = {kJobStates.begin(), kJobStates.end()}};
-  // Of a search
-  if (column == "verdict" || column == "lost_reason" || column == "parameter" || column == "metric")
-    return {.is_text = true, .words = {}};
-  if (column == "monotonic") return {.is_text = true, .words = {"true", "false"}};
+  if (column == "state") return {.is_text = true, .words = words_of_state()};
+  if (std::ranges::find(kTextColumns, column) != kTextColumns.end()) return {.is_text = true, .words = {}};
+  if (column == "monotonic" || column == "on_front") return {.is_text = true, .words = {"true", "false"}};
   if (is_varied_by_cases(column) && column != kWearKey) return {.is_text = true, .words = {}};
   const ParameterInfo* const info = find_parameter(column);
   if (info == nullptr || info->kind != ParameterKind::kChoice) return {};
