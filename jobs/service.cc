@@ -11,6 +11,7 @@
 #include "jobs/base/provenance.h"
 #include "jobs/base/time_text.h"
 #include "jobs/cluster/slurm_executor.h"
+#include "jobs/fits/fit_study.h"
 #include "jobs/local/local_pool.h"
 #include "jobs/requests/expand.h"
 #include "jobs/requests/extend_request.h"
@@ -39,13 +40,6 @@ json ended_job_json(const EndedJob& job) {
           {"ended_at", time_text(job.ended_ms)}, {"reused", job.reused}};
 }
 
-/// "the search sch_...", of the study with that id.
-std::string name_of_study(const std::string& id) {
-  const auto kind = std::ranges::find_if(
-      kStudyKinds, [&](const StudyKindInfo& one) { return id.starts_with(one.id_prefix); });
-  return kind == kStudyKinds.end() ? id : "the " + std::string(kind->name) + " " + id;
-}
-
 }  // namespace
 
 Service::Service(ServiceOptions options)
@@ -56,7 +50,11 @@ Service::Service(ServiceOptions options)
                            .threads = options_.threads};
   runners_ = {std::make_unique<StudyRunner>(*store_, limits, make_limit_study()),
               std::make_unique<StudyRunner>(*store_, limits, make_wear_study(store_->reader)),
-              std::make_unique<StudyRunner>(*store_, limits, make_optimisation_study())};
+              std::make_unique<StudyRunner>(*store_, limits, make_optimisation_study()),
+              std::make_unique<StudyRunner>(
+                  *store_, limits, make_fit_study(store_->reader, [this](const std::string& id) {
+                    return store_->measurements.find(id);
+                  }))};
   if (store_->engine_before() != engine_version()) {
     options_.log("the store's results are of the engine " + store_->engine_before() + ", this program's is " +
                  engine_version() + ": jobs that are asked for again are computed again");

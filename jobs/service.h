@@ -52,12 +52,12 @@ struct ServiceOptions {
   int threads = 2;              ///< jobs computed at a time, >= 1
   std::size_t max_sweep_jobs = 10'000;
   std::size_t max_queued_jobs = 100'000;
-  JobLimits job_limits{};             ///< of each job
+  JobLimits job_limits{};  ///< of each job
   StoreQuota store_quota{};
   Start start = Start::kAtOnce;
-  cluster::Site site{};         ///< the cluster; without a folder there is none
+  cluster::Site site{};            ///< the cluster; without a folder there is none
   std::string executor = "local";  ///< of sweeps that name none: "local", or "slurm" if there is a cluster
-  Runner runner;                ///< empty: the engine
+  Runner runner;                   ///< empty: the engine
   /// Told, from any thread, what needs a human's eye (a disk that is full, say); empty: nobody. Must not
   /// throw.
   std::function<void(const std::string&)> log;
@@ -140,16 +140,19 @@ class Service {
   void check_room() const;
 
   /// Stores a study and the jobs of its first evaluations, or nothing at all; others follow by themselves.
-  /// See parse_search_request(), parse_wear_request() and parse_optimisation_request().
+  /// See parse_search_request(), parse_wear_request(), parse_optimisation_request() and parse_fit_request().
   /// @param key as of submit_sweep()
   nlohmann::json submit_study(StudyKind kind, const nlohmann::ordered_json& request,
                               const std::string& key = {});
   [[nodiscard]] std::optional<nlohmann::json> find_study(StudyKind kind, const std::string& id) const;
   [[nodiscard]] nlohmann::json list_studies(StudyKind kind, const PageQuery& query) const;
   /// Flat rows: the limits of a search, the cycles of a bearing that is worn, the candidates of an
-  /// optimisation. @param query of the columns that they have
+  /// optimisation, the points of a fit. @param query of the columns that they have
   [[nodiscard]] std::optional<ResultTable> find_study_table(StudyKind kind, const std::string& id,
                                                             const ResultQuery& query = {}) const;
+  /// Measured signals beside those of the best jobs; empty if there is no such study, or it has none.
+  [[nodiscard]] std::optional<ResultTable> find_study_signals(StudyKind kind, const std::string& id,
+                                                              const ResultQuery& query = {}) const;
   std::optional<nlohmann::json> cancel_study(StudyKind kind, const std::string& id);
   /// Queues failed and cancelled jobs of a study again, and lets it go on.
   std::optional<nlohmann::json> retry_study(StudyKind kind, const std::string& id);
@@ -218,7 +221,7 @@ class Service {
 
   void check_open() const;
   void check_executor(const std::string& name) const;
-  void wake();        ///< the executors
+  void wake();  ///< the executors
   void tell_change();
   [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
   [[nodiscard]] ExecutorFilter filter_of(std::string_view executor) const;
@@ -254,8 +257,8 @@ class Service {
   std::array<std::unique_ptr<StudyRunner>, kStudyKinds.size()> runners_;  ///< by StudyKind
   /// End before the store they work for; none before start()
   std::vector<std::unique_ptr<Executor>> executors_;
-  std::mutex stop_mutex_;                                ///< guards the joining of study_thread_
-  std::jthread study_thread_;                            ///< of run_studies()
+  std::mutex stop_mutex_;      ///< guards the joining of study_thread_
+  std::jthread study_thread_;  ///< of run_studies()
 };
 
 }  // namespace jobs

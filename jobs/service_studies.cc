@@ -33,6 +33,13 @@ std::optional<ResultTable> Service::find_study_table(StudyKind kind, const std::
   return table;
 }
 
+std::optional<ResultTable> Service::find_study_signals(StudyKind kind, const std::string& id,
+                                                       const ResultQuery& query) const {
+  auto table = runner(kind).find_signal_table(id);
+  if (table) jobs::apply(query, *table, kStudyColumns);
+  return table;
+}
+
 std::optional<SweepNews> Service::find_study_news(StudyKind kind, const std::string& id,
                                                   std::int64_t after) const {
   const auto row = runner(kind).find_row(id);
@@ -40,7 +47,9 @@ std::optional<SweepNews> Service::find_study_news(StudyKind kind, const std::str
   auto news = find_news(row->sweep_id, after);
   if (!news) return std::nullopt;
   const bool runs = row->state == "running";
-  news->progress = {{"id", id}, {"sweep_id", row->sweep_id}, {"state", row->state},
+  news->progress = {{"id", id},
+                    {"sweep_id", row->sweep_id},
+                    {"state", row->state},
                     {"counts", news->progress.at("counts")},
                     {"progress", runs ? runner(kind).find_progress(id) : 1.0}};
   news->ended = news->ended && !runs;

@@ -27,6 +27,7 @@ inline constexpr std::string_view kJobPrefix = "job_";
 inline constexpr std::string_view kSearchPrefix = "sch_";
 inline constexpr std::string_view kWearStudyPrefix = "wst_";
 inline constexpr std::string_view kOptimisationPrefix = "opt_";
+inline constexpr std::string_view kFitPrefix = "fit_";
 inline constexpr std::string_view kMeasurementPrefix = "mea_";
 
 /// Whether a text has the form of an id of that kind.

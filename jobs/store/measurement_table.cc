@@ -96,6 +96,14 @@ std::vector<MeasurementRow> MeasurementTable::list(const std::string& before, st
   });
 }
 
+std::optional<std::string> MeasurementTable::find_use(const std::string& id) const {
+  return core_.readers.read([&](const SQLite::Database& database) {
+    SQLite::Statement find(database, "SELECT id FROM searches WHERE instr(request, ?) > 0 LIMIT 1");
+    find.bind(1, "\"" + id + "\"");
+    return find.executeStep() ? std::optional(find.getColumn(0).getString()) : std::nullopt;
+  });
+}
+
 bool MeasurementTable::erase(const std::string& id) {
   return core_.write_in_held_room([&](SQLite::Database& database) {
     SQLite::Statement erase(database, "DELETE FROM measurements WHERE id = ?");

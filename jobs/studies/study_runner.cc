@@ -27,16 +27,18 @@ std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
 
 json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
   const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
-  const IdempotencyRecord<StudySnapshot> record{
-      .key = idempotency.key, .fingerprint = idempotency.fingerprint,
-      .make_response = [&](StudySnapshot begun) {
-        // As the study begins: results that are known already have not been told.
-        for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
-        return *idempotency.response =
-                   text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
-      }};
+  const IdempotencyRecord<StudySnapshot> record{.key = idempotency.key,
+                                                .fingerprint = idempotency.fingerprint,
+                                                .make_response = [&](StudySnapshot begun) {
+                                                  // As the study begins: results that are known already have
+                                                  // not been told.
+                                                  for (ResultRow& job : begun.results.rows)
+                                                    job.state = state_name(JobState::kQueued);
+                                                  return *idempotency.response = text_of(type_->make_resource(
+                                                             begun.study, begun.results, limits_.threads));
+                                                }};
   const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
-                                          request.dump(), limits_.max_queued_jobs, record);
+                                            request.dump(), limits_.max_queued_jobs, record);
   ++wakeups_;
   return find(id).value();
 }
@@ -59,6 +61,13 @@ std::optional<ResultTable> StudyRunner::find_table(const std::string& id) const 
   if (!row) return std::nullopt;
   const auto results = store_.reader.find_results(row->sweep_id);
   return results ? std::optional(type_->make_table(*row, *results)) : std::nullopt;
+}
+
+std::optional<ResultTable> StudyRunner::find_signal_table(const std::string& id) const {
+  const auto row = find_row(id);
+  if (!row) return std::nullopt;
+  const auto results = store_.reader.find_results(row->sweep_id);
+  return results ? type_->make_signal_table(*row, *results) : std::nullopt;
 }
 
 bool StudyRunner::cancel(const std::string& id, const std::function<void(const std::string&)>& cancel_sweep) {

@@ -80,6 +80,11 @@ class StudyType {
   [[nodiscard]] virtual nlohmann::json make_summary(const StudyRow& study) const = 0;
   [[nodiscard]] virtual const std::vector<std::string>& listing_keys() const = 0;
   [[nodiscard]] virtual ResultTable make_table(const StudyRow& study, const SweepResults& results) const = 0;
+  /// Measured signals beside those of the jobs; empty for studies without them.
+  [[nodiscard]] virtual std::optional<ResultTable> make_signal_table(const StudyRow& /*study*/,
+                                                                     const SweepResults& /*results*/) const {
+    return std::nullopt;
+  }
 };
 
 /// Limits on the jobs of studies.
@@ -103,6 +108,8 @@ class StudyRunner {
   [[nodiscard]] std::optional<StudyRow> find_row(const std::string& id) const;
   [[nodiscard]] nlohmann::json list(const PageQuery& query) const;
   [[nodiscard]] std::optional<ResultTable> find_table(const std::string& id) const;
+  /// See StudyType::make_signal_table().
+  [[nodiscard]] std::optional<ResultTable> find_signal_table(const std::string& id) const;
 
   /// Ends a study that runs; calls `cancel_sweep` with the id of its sweep.
   /// @returns false if there is no such study  @throws WrongState if it has ended otherwise
@@ -144,10 +151,10 @@ class StudyRunner {
   std::unique_ptr<StudyType> type_;
   std::mutex mutex_;  ///< held while a study changes, so that no job is added to one that is being cancelled
   std::map<std::string, ActiveStudy> active_;  ///< by id; guarded by mutex_
-  std::atomic<std::uint64_t> wakeups_ = 1;  ///< counts the studies that begin or go on
-  std::uint64_t idle_wakeups_ = 0;          ///< wakeups_ when no study ran; guarded by mutex_
+  std::atomic<std::uint64_t> wakeups_ = 1;     ///< counts the studies that begin or go on
+  std::uint64_t idle_wakeups_ = 0;             ///< wakeups_ when no study ran; guarded by mutex_
   mutable std::mutex progress_mutex_;
-  std::map<std::string, double> progress_;     ///< by id; guarded by progress_mutex_
+  std::map<std::string, double> progress_;  ///< by id; guarded by progress_mutex_
 };
 
 }  // namespace jobs

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jobs/fits/divergence.h"
+#include "jobs/fits/evaluations.h"
+#include "jobs/fits/fit_problem.h"
+#include "jobs/store/sweep_reader.h"
+
+namespace jobs {
+
+/// Comparison of the jobs at one point with the measured signals.
+struct Observation {
+  std::vector<double> residuals;  ///< of the compared samples, signal by signal, over sigma
+  std::vector<double> features;   ///< of the signals, signal by signal; empty unless they are asked for
+};
+
+/// Signal that is predicted at all measured times.
+struct Prediction {
+  std::vector<double> t, measured, predicted;
+};
+
+/// Deviation of a predicted signal from the measured one.
+struct SignalError {
+  std::size_t samples = 0;
+  double rms = 0.0;           ///< in the unit of the channel
+  double relative_rms = 0.0;  ///< over the RMS of the measured samples about their mean
+  double measured_peak = 0.0, predicted_peak = 0.0;  ///< largest magnitudes
+};
+
+/// Compares trajectories of jobs with measured signals, through the models of their sensors.
+class FitObserver {
+ public:
+  /// @param reader  of the trajectories; outlives this
+  FitObserver(std::shared_ptr<const FitProblem> problem, const SweepReader& reader);
+
+  [[nodiscard]] const FitProblem& problem() const { return *problem_; }
+
+  enum class Wanted { kResiduals, kFeaturesToo };
+  /// @param job_ids  one a run; those of runs that are held back may be empty  @returns empty if a job has no
+  /// trajectory that covers the samples
+  [[nodiscard]] std::optional<Observation> observe(const FitPoint& point,
+                                                   const std::vector<std::string>& job_ids,
+                                                   Wanted wanted) const;
+  /// Whether the residuals of each signal are white, without the spikes that impacts leave that come too
+  /// early or too late.
+  [[nodiscard]] bool is_noise(const std::vector<double>& residuals) const;
+  /// Part of the sum of squares beyond that of the noise.
+  [[nodiscard]] double misfit(const std::vector<double>& residuals) const;
+  [[nodiscard]] const std::vector<double>& measured_features() const { return measured_features_; }
+  [[nodiscard]] const std::vector<std::string>& names_of_features() const { return feature_names_; }
+
+  /// Whole signal. @returns empty as observe() does
+  [[nodiscard]] std::optional<Prediction> predict(const FitSignal& signal, const FitPoint& point,
+                                                  const std::vector<std::string>& job_ids) const;
+  /// @returns empty if no sample is of that kind
+  [[nodiscard]] static std::optional<SignalError> compare(const FitSignal& signal,
+                                                          const Prediction& prediction, Samples which);
+
+  /// SignalDivergence of the signals of several points that are beside each other, that of the signal in
+  /// which it is largest. @param residuals  of two points or more
+  [[nodiscard]] SignalDivergence judge(const std::vector<std::vector<double>>& residuals) const;
+
+ private:
+  struct Series {
+    std::vector<double> t, y;
+  };
+  [[nodiscard]] std::optional<Series> read(const std::string& job_id, const std::string& channel) const;
+
+  std::shared_ptr<const FitProblem> problem_;
+  const SweepReader& reader_;
+  std::vector<double> measured_features_;
+  std::vector<std::string> feature_names_;
+};
+
+}  // namespace jobs

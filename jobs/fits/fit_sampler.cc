@@ -1,0 +1,610 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/fits/fit_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "jobs/fits/features.h"
+#include "jobs/fits/fit_cases.h"
+#include "jobs/parameters/unit_scale.h"
+#include "jobs/requests/expand.h"
+#include "jobs/statistics/unit_points.h"
+
+namespace jobs {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Points of the design: so many a parameter, and at least so many.
+constexpr std::size_t kDesignPoints = 6;
+constexpr std::size_t kFewestDesignPoints = 20;
+/// Replicates of the best point of the design, by which divergence and scatter are judged.
+constexpr std::size_t kDivergenceReplicates = 2;
+constexpr std::size_t kScatterReplicates = 8;
+/// Part of the budget that is spent before the profile likelihood.
+constexpr double kGlobalShare = 0.7;
+constexpr double kSearchShare = 0.25;  ///< of one population search
+/// Steps of the differences of features, which scatter.
+constexpr double kFeatureStep = 0.05;
+constexpr std::size_t kFeatureIterations = 6;
+/// Profiles: steps of each refit, and values on each side.
+constexpr std::size_t kRefitIterations = 3;
+constexpr std::size_t kProfileValues = 6;
+/// Least scale of a feature, as part of its measured value; and before scatter is known.
+constexpr double kLeastFeatureScale = 0.02;
+constexpr double kFirstFeatureScale = 0.1;
+constexpr std::size_t kMostRestarts = 2;
+constexpr double kFailedFitness = 1e200;
+/// Population searches, one after the other as long as residuals are no noise.
+constexpr std::size_t kMostSearches = 4;
+/// Least size of the box of a search, as part of a span.
+constexpr double kLeastBox = 1e-3;
+
+/// Steps of the differences of least squares, one after the other: the long ones lead across what is rugged.
+constexpr std::array<double, 4> kDifferenceSteps{1e-2, 1e-3, 1e-4, 1e-5};
+
+double sum_of_squares(const std::vector<double>& residuals) {
+  double sum = 0.0;
+  for (const double value : residuals) sum += value * value;
+  return sum;
+}
+
+std::vector<double> as_vector(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
+
+bool has_jobs(const FitPointSummary& point) {
+  return std::ranges::any_of(point.job_ids, [](const std::string& id) { return !id.empty(); });
+}
+
+}  // namespace
+
+FitSampler::FitSampler(std::shared_ptr<const FitObserver> observer, const SweepResults* results)
+    : observer_(std::move(observer)), problem_(observer_->problem()) {
+  for (const double feature : observer_->measured_features())
+    feature_scale_.push_back(kFirstFeatureScale * std::abs(feature) + std::numeric_limits<double>::min());
+  summary_.basis = problem_.basis;
+  box_sizes_.assign(problem_.parameters.size(), 1.0);
+  if (results == nullptr) return;
+  for (const ResultRow& job : results->rows) tell(job);
+}
+
+void FitSampler::tell(const ResultRow& ended) {
+  jobs_.insert_or_assign(ended.swept,
+                         Job{.id = ended.job_id, .state = ended.state, .error_reason = ended.error_reason});
+}
+
+NextCases FitSampler::ask() {
+  NextCases next;
+  try {
+    update_points();
+    while (pending_.empty() && !cancelled_ && summary_.stage != FitStage::kEnded) {
+      const FitStage stage = summary_.stage;
+      for (const FitPoint& point : run_stage()) add_point(point, next);
+      if (summary_.stage == FitStage::kPrediction) run_prediction(next);
+      update_points();
+      if (summary_.stage != stage) summarise_signals();
+    }
+  } catch (const StorageError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {  // one fit that cannot go on must not keep others waiting
+    next.cases.clear();
+    next.end_state = "failed";
+    next.error = error.what();
+    return next;
+  }
+  return end_if_nothing_waits(std::move(next));
+}
+
+NextCases FitSampler::end_if_nothing_waits(NextCases next) {
+  if (cancelled_) next.cases.clear();  // the stages were only followed as far as the results go
+  const bool waits = std::ranges::any_of(
+      pending_, [&](std::size_t index) { return !cancelled_ || has_jobs(summary_.points[index]); });
+  if (waits || !next.cases.empty()) return next;
+  if (cancelled_) {
+    next.end_state = "cancelled";
+  } else if (best_.empty()) {
+    next.end_state = "failed";
+    next.error = "no point has all its jobs; the first has not because of " +
+                 summary_.points.front().lost_reason.value_or("");
+  } else {
+    next.end_state = "succeeded";
+  }
+  return next;
+}
+
+double FitSampler::progress() const {
+  if (summary_.stage == FitStage::kEnded) return 1.0;
+  return std::min(1.0, static_cast<double>(summary_.points.size()) / static_cast<double>(problem_.budget));
+}
+
+FitSampler::Points FitSampler::run_stage() {
+  switch (summary_.stage) {
+    case FitStage::kDesign:
+      return run_design();
+    case FitStage::kDivergence:
+      return run_divergence();
+    case FitStage::kScatter:
+      return run_scatter();
+    case FitStage::kGlobal:
+      return run_global();
+    case FitStage::kLocal:
+      return run_local();
+    case FitStage::kProfile:
+      return run_profile();
+    case FitStage::kPrediction:
+    case FitStage::kEnded:
+      break;
+  }
+  return {};
+}
+
+FitSampler::Points FitSampler::run_design() {
+  if (base_points_.empty()) {
+    const std::size_t n = problem_.parameters.size();
+    const std::size_t count = std::min(std::max(kFewestDesignPoints, kDesignPoints * n), problem_.budget / 2);
+    base_points_.push_back(start_of(problem_));
+    for (const auto& parts : sobol_points(count - 1, n, problem_.seed))
+      base_points_.push_back(point_at(problem_, parts));
+  }
+  Points missing = missing_of(base_points_);
+  if (!missing.empty()) return missing;
+  choose_best(base_points_);
+  if (best_.empty()) summary_.stage = FitStage::kEnded;
+  else if (!summary_.basis) summary_.stage = FitStage::kDivergence;
+  else set_basis(*summary_.basis);
+  return {};
+}
+
+FitSampler::Points FitSampler::run_divergence() {
+  Points points{best_};
+  for (std::size_t k = 1; k <= kDivergenceReplicates; ++k) points.push_back(replicate_of(problem_, best_, k));
+  Points missing = missing_of(points);
+  if (!missing.empty()) return missing;
+  std::vector<std::vector<double>> residuals;
+  for (const FitPoint& point : points)
+    if (const auto found = residuals_.find(point); found != residuals_.end())
+      residuals.push_back(found->second);
+  if (residuals.size() < 2) {
+    summary_.remarks.emplace_back(
+        "Jobs beside the best point of the design failed, so that divergence was not measured.");
+    set_basis(FitBasis::kPointWise);
+    return {};
+  }
+  summary_.divergence = observer_->judge(residuals);
+  set_basis(observer_->measured_features().empty() ? FitBasis::kPointWise : summary_.divergence->basis);
+  return {};
+}
+
+void FitSampler::set_basis(FitBasis basis) {
+  summary_.basis = basis;
+  if (is_point_wise()) return begin_global();
+  summary_.stage = FitStage::kScatter;
+  sum_features();
+}
+
+void FitSampler::sum_features() {
+  for (FitPointSummary& point : summary_.points)
+    if (point.sum) point.sum = sum_of_squares(feature_residuals(features_.at(point.point)));
+}
+
+FitSampler::Points FitSampler::run_scatter() {
+  Points points;
+  for (std::size_t k = 1; k <= kScatterReplicates; ++k) points.push_back(replicate_of(problem_, best_, k));
+  Points missing = missing_of(points);
+  if (!missing.empty()) return missing;
+  std::vector<std::vector<double>> replicates{features_.at(best_)};
+  for (const FitPoint& point : points)
+    if (const auto found = features_.find(point); found != features_.end())
+      replicates.push_back(found->second);
+  if (replicates.size() > 1) {
+    const FeatureScatter scatter = calc_scatter(replicates);
+    const double mean_of = 1.0 + 1.0 / static_cast<double>(problem_.replicates);
+    for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
+      const double least = kLeastFeatureScale * std::abs(observer_->measured_features()[k]);
+      feature_scale_[k] =
+          std::max({scatter.deviation[k] * std::sqrt(mean_of), least, std::numeric_limits<double>::min()});
+    }
+    sum_features();
+  }
+  begin_global();
+  return {};
+}
+
+void FitSampler::begin_global() {
+  summary_.stage = FitStage::kGlobal;
+  const auto part_of_budget = [this](double part) {
+    return static_cast<std::size_t>(part * static_cast<double>(problem_.budget));
+  };
+  global_limit_ = part_of_budget(kGlobalShare);
+  search_limit_ = std::min(global_limit_, summary_.points.size() + part_of_budget(kSearchShare));
+  box_centre_ = best_;
+  population_.emplace(PopulationOptions{.dimensions = best_.size(),
+                                        .population = problem_.population,
+                                        .seed = static_cast<unsigned>(problem_.seed + search_),
+                                        .start = box_parts_of(best_)});
+}
+
+std::pair<double, double> FitSampler::box_of(std::size_t i) const {
+  const double centre = part_at(problem_.parameters[i].span, box_centre_[i]);
+  const double from = std::clamp(centre - 0.5 * box_sizes_[i], 0.0, 1.0 - box_sizes_[i]);
+  return {from, from + box_sizes_[i]};
+}
+
+/// Sets the next search's box: at its sides residuals have changed by as much as they are, by the derivatives
+/// with the longest steps.
+void FitSampler::set_box(const LeastSquaresResult& result) {
+  for (std::size_t i = 0; i < box_sizes_.size(); ++i) {
+    const double slope = result.jacobian.col(static_cast<Eigen::Index>(i)).norm();
+    const double size = 2.0 * std::sqrt(result.sum);
+    box_sizes_[i] = size < slope ? std::max(size / slope, kLeastBox) : 1.0;
+  }
+}
+
+FitPoint FitSampler::point_in_box(const UnitPoint& parts) const {
+  std::vector<double> in_spans;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto [from, to] = box_of(i);
+    in_spans.push_back(std::clamp(std::lerp(from, to, parts[i]), 0.0, 1.0));
+  }
+  return point_at(problem_, in_spans);
+}
+
+UnitPoint FitSampler::box_parts_of(const FitPoint& point) const {
+  UnitPoint parts;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const auto [from, to] = box_of(i);
+    parts.push_back((part_at(problem_.parameters[i].span, point[i]) - from) / (to - from));
+  }
+  return parts;
+}
+
+FitSampler::Points FitSampler::run_global() {
+  while (true) {
+    const auto unknown =
+        population_->ask([this](const UnitPoint& parts) -> std::optional<std::vector<double>> {
+          const FitPoint point = point_in_box(parts);
+          if (!missing_of(replicates_of(point)).empty()) return std::nullopt;
+          return std::vector<double>{sum_of(point).value_or(kFailedFitness)};
+        });
+    if (unknown.empty() || summary_.points.size() >= search_limit_) break;
+    Points missing;
+    for (const UnitPoint& parts : unknown) {
+      const FitPoint point = point_in_box(parts);
+      base_points_.push_back(point);
+      const Points more = missing_of(replicates_of(point));
+      missing.insert(missing.end(), more.begin(), more.end());
+    }
+    if (!missing.empty()) return missing;
+  }
+  Points complete = base_points_;
+  std::erase_if(complete,
+                [this](const FitPoint& point) { return !missing_of(replicates_of(point)).empty(); });
+  choose_best(complete);
+  begin_local(best_, 0);
+  return {};
+}
+
+void FitSampler::begin_local(const FitPoint& start, std::size_t step) {
+  summary_.stage = FitStage::kLocal;
+  local_start_ = start;
+  step_ = step;
+  evaluations_ = {};
+  residuals_.clear();
+  const std::size_t left = problem_.budget - std::min(problem_.budget, summary_.points.size());
+  local_limit_ = is_point_wise() ? left : left / problem_.replicates;
+}
+
+LeastSquaresOptions FitSampler::local_options() const {
+  LeastSquaresOptions options{.max_evaluations = local_limit_,
+                              .step = ends_ ? last_step_ : kDifferenceSteps[step_]};
+  if (is_point_wise()) return options;
+  options.step = kFeatureStep;
+  options.differences = Differences::kCentral;
+  options.max_iterations = kFeatureIterations;
+  return options;
+}
+
+FitSampler::Points FitSampler::run_local() {
+  while (true) {
+    LeastSquaresAnswer answer = solve_least_squares(
+        {.spans = spans_of(problem_), .start = local_start_, .fixed = {}, .options = local_options()},
+        evaluations_);
+    if (answer.result) {
+      end_local(std::move(*answer.result));
+      if (summary_.stage != FitStage::kLocal) return {};
+      continue;
+    }
+    Points missing = tell_least_squares(answer.points);
+    if (!missing.empty()) return missing;
+  }
+}
+
+/// Step that changes the sum of squares by as much as the 95 % interval allows, for a parameter in the
+/// middle: shorter ones see the rugged, which is steeper than the valley, longer ones its bends.
+double FitSampler::find_last_step(const LeastSquaresResult& result) const {
+  const std::vector<double> residuals = as_vector(result.residuals);
+  const double noise = 4.0 * result.sum / static_cast<double>(residuals.size());
+  const double change = std::sqrt(noise + (leaves_noise_ ? 0.0 : observer_->misfit(residuals)));
+  std::vector<double> steps;
+  for (Eigen::Index i = 0; i < result.jacobian.cols(); ++i)
+    steps.push_back(change / std::max(result.jacobian.col(i).norm(), std::numeric_limits<double>::min()));
+  std::ranges::sort(steps);
+  return std::clamp(steps[steps.size() / 2], kDifferenceSteps.back(), kDifferenceSteps.front());
+}
+
+void FitSampler::end_local(LeastSquaresResult result) {
+  if (!result.x.empty() && result.end != FitEnd::kStartFailed && is_point_wise()) {
+    base_points_.push_back(result.x);
+    choose_best(base_points_);
+    if (step_ == 0 && !ends_) set_box(result);
+    if (!ends_ && step_ + 1 < kDifferenceSteps.size()) return begin_local(best_, step_ + 1);
+    leaves_noise_ = observer_->is_noise(as_vector(result.residuals));
+    if (!leaves_noise_ && !ends_ && search_ + 1 < kMostSearches && summary_.points.size() < global_limit_) {
+      ++search_;
+      return begin_global();
+    }
+    if (!std::exchange(ends_, true)) {
+      last_step_ = find_last_step(result);
+      return begin_local(best_, step_);
+    }
+  }
+  summary_.local_end = result.message;
+  summary_.stage = FitStage::kPrediction;
+  if (result.x.empty() || result.end == FitEnd::kStartFailed) {
+    summary_.remarks.push_back("There are no intervals: " + result.message);
+    return;
+  }
+  best_ = result.x;
+  summary_.best = indices_.at(best_);
+  local_ = std::move(result);
+  IntervalOptions options;
+  if (is_point_wise()) {
+    for (const FitSignal& signal : problem_.signals)
+      if (!signal.compared.t.empty()) options.blocks.push_back(signal.compared.t.size());
+    if (!leaves_noise_) options.misfit = observer_->misfit(as_vector(local_->residuals));
+  } else {
+    options.noise = ResidualNoise::kWhite;
+  }
+  const std::vector<Span> spans = spans_of(problem_);
+  if (local_->jacobian.rows() <= local_->jacobian.cols()) {
+    summary_.remarks.emplace_back("There are too few features for intervals of so many parameters.");
+    return;
+  }
+  summary_.intervals = calc_intervals(local_->jacobian, local_->residuals, spans, local_->x, options);
+  if (!leaves_noise_) {
+    summary_.remarks.emplace_back(
+        "The best jobs leave more than noise: the search may have missed better values, or the linkage is "
+        "not that of the measurement. The intervals are linearised ones, and count the misfit.");
+  } else if (problem_.profiles && is_point_wise()) {
+    summary_.stage = FitStage::kProfile;
+  }
+}
+
+FitSampler::Points FitSampler::run_profile() {
+  LeastSquaresOptions refit = local_options();
+  refit.max_iterations = kRefitIterations;
+  while (true) {
+    const ProfileProblem profile{.spans = spans_of(problem_),
+                                 .best = *local_,
+                                 .intervals = *summary_.intervals,
+                                 .refit = refit,
+                                 .max_values = kProfileValues};
+    ProfileAnswer answer = profile_likelihood(profile, evaluations_);
+    if (answer.result) {
+      for (const ProfileInterval& interval : *answer.result) {
+        if (!interval.better || restarts_ >= kMostRestarts) continue;
+        ++restarts_;
+        begin_local(*interval.better, step_);
+        return {};
+      }
+      summary_.profiles = std::move(*answer.result);
+      summary_.stage = FitStage::kPrediction;
+      return {};
+    }
+    Points missing = tell_least_squares(answer.points);
+    if (missing.empty()) continue;
+    if (summary_.points.size() < problem_.budget) return missing;
+    summary_.remarks.emplace_back(
+        "The budget ended before the profile likelihood was there: intervals are those of the linearised "
+        "model.");
+    summary_.stage = FitStage::kPrediction;
+    return {};
+  }
+}
+
+void FitSampler::run_prediction(NextCases& next) {
+  const std::size_t best = summary_.best.value();
+  const bool asked = std::ranges::none_of(swept_[best], &std::string::empty);
+  if (asked) summary_.stage = FitStage::kEnded;
+  else add_jobs(best, true, next);
+}
+
+FitSampler::Points FitSampler::tell_least_squares(const Points& points) {
+  Points missing;
+  for (const FitPoint& point : points) {
+    const Points more = missing_of(replicates_of(point));
+    missing.insert(missing.end(), more.begin(), more.end());
+    if (!more.empty()) continue;
+    if (auto residuals = residuals_of(point)) evaluations_.tell(point, std::move(*residuals));
+    else evaluations_.tell_failed(point);
+  }
+  return missing;
+}
+
+FitSampler::Points FitSampler::missing_of(const Points& points) const {
+  Points missing;
+  for (const FitPoint& point : points)
+    if (!indices_.contains(point) && std::ranges::find(missing, point) == missing.end())
+      missing.push_back(point);
+  return missing;
+}
+
+FitSampler::Points FitSampler::replicates_of(const FitPoint& point) const {
+  Points points{point};
+  for (std::size_t k = 1; !is_point_wise() && k < problem_.replicates; ++k)
+    points.push_back(replicate_of(problem_, point, k));
+  return points;
+}
+
+void FitSampler::add_point(const FitPoint& point, NextCases& next) {
+  const auto [known, is_new] = indices_.try_emplace(point, summary_.points.size());
+  if (!is_new) return;
+  const std::size_t runs = problem_.runs.size();
+  summary_.points.push_back(
+      {.point = point, .stage = summary_.stage, .job_ids = std::vector<std::string>(runs)});
+  swept_.emplace_back(runs);
+  add_jobs(known->second, false, next);
+}
+
+void FitSampler::add_jobs(std::size_t index, bool held_back, NextCases& next) {
+  std::vector<ordered_json> cases(problem_.runs.size());
+  std::vector<std::string> swept = swept_[index];
+  try {
+    for (std::size_t run = 0; run < problem_.runs.size(); ++run) {
+      if (is_fitted(problem_, run) == held_back) continue;
+      ordered_json sweep = problem_.common_sweep;
+      sweep["cases"] = ordered_json::array({case_of(problem_, run, summary_.points[index].point)});
+      swept[run] = plan_sweep(sweep, 1).jobs.front().swept;
+      cases[run] = sweep["cases"][0];
+    }
+  } catch (const InvalidRequest& invalid) {
+    if (!first_invalid_) first_invalid_ = invalid;
+    if (!held_back) return lose(index, "invalid_parameters");
+    summary_.remarks.push_back(
+        "A run that is held back has no prediction, as its parameters do not fit the best values: " +
+        std::string(invalid.what()) + ".");
+    summary_.stage = FitStage::kEnded;
+    return;
+  }
+  for (std::size_t run = 0; run < swept.size(); ++run) {
+    const Job queued{.id = "", .state = "queued", .error_reason = {}};
+    if (!swept[run].empty() && jobs_.try_emplace(swept[run], queued).second)
+      next.cases.push_back(std::move(cases[run]));
+  }
+  swept_[index] = std::move(swept);
+  pending_.push_back(index);
+}
+
+void FitSampler::update_points() {
+  const std::vector<std::size_t> pending = std::exchange(pending_, {});
+  for (const std::size_t index : pending) update_point(index);
+}
+
+void FitSampler::update_point(std::size_t index) {
+  FitPointSummary& point = summary_.points[index];
+  bool waits = false;
+  for (std::size_t run = 0; run < swept_[index].size(); ++run) {
+    if (swept_[index][run].empty()) continue;
+    const Job& job = jobs_.at(swept_[index][run]);
+    point.job_ids[run] = job.id;
+    waits |= job.state == "queued" || job.state == "running";
+  }
+  if (waits) return pending_.push_back(index);
+  for (const std::string& swept : swept_[index]) {
+    if (swept.empty()) continue;
+    const Job& job = jobs_.at(swept);
+    cancelled_ |= job.state == "cancelled";
+    if (job.state == "succeeded") continue;
+    if (point.state != FitPointState::kSucceeded) return lose(index, job.error_reason.value_or(job.state));
+    summary_.remarks.push_back("A run that is held back has no prediction, as its job failed: " +
+                               job.error_reason.value_or(job.state) + ".");
+  }
+  if (point.state == FitPointState::kSucceeded) return;
+  const bool only_residuals = summary_.basis == FitBasis::kPointWise;
+  auto observation = observer_->observe(
+      point.point, point.job_ids,
+      only_residuals ? FitObserver::Wanted::kResiduals : FitObserver::Wanted::kFeaturesToo);
+  if (observation) take(index, std::move(*observation));
+  else lose(index, "no_value");
+}
+
+void FitSampler::lose(std::size_t index, std::string reason) {
+  summary_.points[index].state = FitPointState::kLost;
+  summary_.points[index].lost_reason = std::move(reason);
+}
+
+void FitSampler::take(std::size_t index, Observation observation) {
+  FitPointSummary& point = summary_.points[index];
+  point.state = FitPointState::kSucceeded;
+  features_.emplace(point.point, std::move(observation.features));
+  point.sum =
+      sum_of_squares(is_point_wise() ? observation.residuals : feature_residuals(features_.at(point.point)));
+  if (!is_point_wise()) return;
+  if (summary_.stage == FitStage::kDesign || summary_.stage == FitStage::kGlobal) {
+    if (!(*point.sum < least_sum_)) return;
+    least_sum_ = *point.sum;
+    residuals_.clear();
+  }
+  residuals_.insert_or_assign(point.point, std::move(observation.residuals));
+}
+
+std::vector<double> FitSampler::feature_residuals(const std::vector<double>& features) const {
+  std::vector<double> residuals;
+  for (std::size_t k = 0; k < features.size(); ++k)
+    residuals.push_back((features[k] - observer_->measured_features()[k]) / feature_scale_[k]);
+  return residuals;
+}
+
+std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& point) {
+  const std::size_t index = indices_.at(point);
+  if (is_point_wise()) {
+    if (summary_.points[index].state != FitPointState::kSucceeded) return std::nullopt;
+    const auto found = residuals_.find(point);
+    if (found == residuals_.end()) {
+      auto again = observer_->observe(point, summary_.points[index].job_ids, FitObserver::Wanted::kResiduals);
+      if (!again) return std::nullopt;
+      return std::move(again->residuals);
+    }
+    return found->second;
+  }
+  std::vector<double> mean(feature_scale_.size(), 0.0);
+  double count = 0.0;
+  for (const FitPoint& replicate : replicates_of(point)) {
+    const auto found = features_.find(replicate);
+    if (found == features_.end()) continue;
+    count += 1.0;
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += found->second[k];
+  }
+  if (count == 0.0) return std::nullopt;
+  for (double& value : mean) value /= count;
+  return feature_residuals(mean);
+}
+
+std::optional<double> FitSampler::sum_of(const FitPoint& point) {
+  if (is_point_wise()) return summary_.points[indices_.at(point)].sum;
+  const auto residuals = residuals_of(point);
+  return residuals ? std::optional(sum_of_squares(*residuals)) : std::nullopt;
+}
+
+void FitSampler::choose_best(const Points& among) {
+  std::optional<double> least;
+  for (const FitPoint& point : among) {
+    const auto sum = sum_of(point);
+    if (!sum || !std::isfinite(*sum) || (least && !(*sum < *least))) continue;
+    least = sum;
+    best_ = point;
+    summary_.best = indices_.at(point);
+  }
+}
+
+void FitSampler::summarise_signals() {
+  summary_.signals.clear();
+  if (!summary_.best) return;
+  const FitPointSummary& best = summary_.points[*summary_.best];
+  for (std::size_t k = 0; k < problem_.signals.size(); ++k) {
+    const FitSignal& signal = problem_.signals[k];
+    const auto prediction = observer_->predict(signal, best.point, best.job_ids);
+    if (!prediction) continue;
+    summary_.signals.push_back({.signal = k,
+                                .fitted = FitObserver::compare(signal, *prediction, Samples::kFitted),
+                                .held_back = FitObserver::compare(signal, *prediction, Samples::kHeldBack)});
+  }
+}
+
+}  // namespace jobs

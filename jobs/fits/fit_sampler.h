@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/errors.h"
+#include "jobs/fits/evaluations.h"
+#include "jobs/fits/fit_observer.h"
+#include "jobs/fits/fit_summary.h"
+#include "jobs/fits/least_squares.h"
+#include "jobs/optimisation/population_search.h"
+#include "jobs/store/rows.h"
+#include "jobs/studies/study_runner.h"
+
+namespace jobs {
+
+/// Sampler of a fit: a design of points, a population search from the best of them, least squares from the
+/// best of those, and the intervals. All of it follows from the request and the results of the jobs.
+class FitSampler final : public StudySampler {
+ public:
+  /// @param results  null: no job has been made yet
+  FitSampler(std::shared_ptr<const FitObserver> observer, const SweepResults* results);
+
+  void tell(const ResultRow& ended) override;
+  [[nodiscard]] NextCases ask() override;
+  [[nodiscard]] double progress() const override;
+
+  [[nodiscard]] const FitSummary& summary() const { return summary_; }
+  /// Faults of the first point whose parameters do not fit together.
+  [[nodiscard]] const std::optional<InvalidRequest>& first_invalid() const { return first_invalid_; }
+
+ private:
+  struct Job {
+    std::string id, state;
+    std::optional<std::string> error_reason;
+  };
+  using Points = std::vector<FitPoint>;
+
+  // Points that a stage needs and that are not there yet. None: summary_.stage is another one.
+  Points run_stage();
+  Points run_design();
+  Points run_divergence();
+  Points run_scatter();
+  Points run_global();
+  Points run_local();
+  Points run_profile();
+  void run_prediction(NextCases& next);
+
+  void begin_global();
+  /// Point of the population search in its box.
+  [[nodiscard]] FitPoint point_in_box(const UnitPoint& parts) const;
+  /// Ends of the box as parts of a span.
+  [[nodiscard]] std::pair<double, double> box_of(std::size_t i) const;
+  [[nodiscard]] UnitPoint box_parts_of(const FitPoint& point) const;
+  void set_box(const LeastSquaresResult& result);
+  void begin_local(const FitPoint& start, std::size_t step);
+  void set_basis(FitBasis basis);
+  /// Sums of all points by features and their scale.
+  void sum_features();
+  [[nodiscard]] double find_last_step(const LeastSquaresResult& result) const;
+  void end_local(LeastSquaresResult result);
+
+  // Points and their jobs.
+  void add_point(const FitPoint& point, NextCases& next);
+  void add_jobs(std::size_t index, bool held_back, NextCases& next);
+  void update_points();
+  void update_point(std::size_t index);
+  void lose(std::size_t index, std::string reason);
+  void take(std::size_t index, Observation observation);
+  [[nodiscard]] NextCases end_if_nothing_waits(NextCases next);
+
+  [[nodiscard]] Points missing_of(const Points& points) const;
+  /// The points whose mean counts for a point.
+  [[nodiscard]] Points replicates_of(const FitPoint& point) const;
+  /// Residuals as the basis has them; empty if the jobs have failed.
+  [[nodiscard]] std::optional<std::vector<double>> residuals_of(const FitPoint& point);
+  [[nodiscard]] std::vector<double> feature_residuals(const std::vector<double>& features) const;
+  /// Sum of the squares of the residuals; empty as residuals_of() is.
+  [[nodiscard]] std::optional<double> sum_of(const FitPoint& point);
+  void choose_best(const Points& among);
+  /// Tells the least squares points that are there. @returns those that are not
+  Points tell_least_squares(const Points& points);
+  [[nodiscard]] bool is_point_wise() const {
+    return summary_.basis.value_or(FitBasis::kPointWise) == FitBasis::kPointWise;
+  }
+  [[nodiscard]] LeastSquaresOptions local_options() const;
+  void summarise_signals();
+
+  const std::shared_ptr<const FitObserver> observer_;
+  const FitProblem& problem_;
+  std::map<std::string, Job> jobs_;                    ///< by ResultRow::swept
+  std::map<FitPoint, std::size_t> indices_;            ///< in summary_.points
+  std::vector<std::vector<std::string>> swept_;        ///< of the jobs of each point, one a run; empty: none
+  std::vector<std::size_t> pending_;                   ///< points with jobs that have not ended
+  std::map<FitPoint, std::vector<double>> residuals_;  ///< point-wise ones that may be needed again
+  double least_sum_ = std::numeric_limits<double>::infinity();  ///< of point-wise ones until the local stage
+  std::map<FitPoint, std::vector<double>> features_;
+  std::vector<double> feature_scale_;
+  Points base_points_;  ///< those that are no replicates
+  FitPoint best_;       ///< empty: none has succeeded
+  std::optional<PopulationSearch> population_;
+  std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
+  FitPoint box_centre_;
+  std::size_t search_ = 0;    ///< number of the population search
+  bool leaves_noise_ = true;  ///< whether the residuals of the least squares are noise
+  bool ends_ = false;         ///< whether the last least squares have begun
+  std::size_t step_ = 0;      ///< of the differences of least squares, in kDifferenceSteps
+  std::size_t global_limit_ = 0, search_limit_ = 0, local_limit_ = 0;  ///< numbers of points
+  Evaluations evaluations_;                                            ///< of the least squares
+  FitPoint local_start_;
+  double last_step_ = 0.0;  ///< of the differences for the intervals
+  std::optional<LeastSquaresResult> local_;
+  std::size_t restarts_ = 0;  ///< of the least squares, from better points that profiles met
+  bool cancelled_ = false;    ///< whether a job was
+  std::optional<InvalidRequest> first_invalid_;
+  FitSummary summary_;
+};
+
+}  // namespace jobs

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jobs/fits/divergence.h"
+#include "jobs/fits/fit_observer.h"
+#include "jobs/fits/intervals.h"
+#include "jobs/fits/profile_likelihood.h"
+
+namespace jobs {
+
+/// Stage of a fit. kDesign: points that fill the space (Sobol). kDivergence: points beside the best one, by
+/// which the basis is chosen. kScatter: more of them, whose features give the scale of features. kGlobal:
+/// population search. kLocal: least squares. kProfile: profile likelihood. kPrediction: runs
+/// that are held back, with the best values.
+enum class FitStage { kDesign, kDivergence, kScatter, kGlobal, kLocal, kProfile, kPrediction, kEnded };
+
+[[nodiscard]] constexpr std::string_view stage_name(FitStage stage) {
+  constexpr std::array<std::string_view, 8> kNames{"design", "divergence", "scatter",    "global",
+                                                   "local",  "profile",    "prediction", "ended"};
+  return kNames[static_cast<std::size_t>(stage)];
+}
+
+enum class FitPointState { kPending, kSucceeded, kLost };
+
+[[nodiscard]] constexpr std::string_view state_name(FitPointState state) {
+  constexpr std::array<std::string_view, 3> kNames{"pending", "succeeded", "lost"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+/// Point that a fit has asked for.
+struct FitPointSummary {
+  FitPoint point;
+  FitStage stage = FitStage::kDesign;
+  FitPointState state = FitPointState::kPending;
+  std::optional<double> sum{};  ///< of the squares of residuals; of samples until the basis is known
+  std::optional<std::string> lost_reason{};  ///< as OptimisationCandidate has it
+  std::vector<std::string> job_ids{};        ///< one a run; empty where there is no job
+};
+
+/// Deviations of one signal with the best values.
+struct SignalSummary {
+  std::size_t signal = 0;  ///< index in FitProblem::signals
+  std::optional<SignalError> fitted, held_back;
+};
+
+/// State of a fit.
+struct FitSummary {
+  FitStage stage = FitStage::kDesign;
+  std::vector<FitPointSummary> points;  ///< in the order of asking
+  std::optional<FitBasis> basis{};
+  std::optional<SignalDivergence> divergence{};
+  std::optional<std::size_t> best{};        ///< index of the point with the least sum
+  std::optional<std::string> local_end{};   ///< how the least squares ended, a sentence
+  std::optional<FitIntervals> intervals{};  ///< at the best point
+  std::optional<std::vector<ProfileInterval>> profiles{};
+  std::vector<std::string> remarks{};  ///< sentences: what is not identifiable, and what to mind
+  std::vector<SignalSummary> signals{};
+};
+
+}  // namespace jobs

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fits on a service whose jobs give a closed form in the place of the engine's trajectory: the slider's
+// position is clearance (cos(velocity t) + 0.3 restitution sin(3 velocity t)), with lengths in mm.
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "jobs/base/errors.h"
+#include "jobs/measurements/measurement.h"
+#include "jobs/service.h"
+#include "tests/jobs/service_support.h"
+
+namespace jobs_tests {
+namespace {
+
+using jobs::StudyKind;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr StudyKind kFit = StudyKind::kFit;
+constexpr const char* kChannel = "slider_position_m";
+
+double position(double clearance, double restitution, double velocity, double t) {
+  return clearance * (std::cos(velocity * t) + 0.3 * restitution * std::sin(3.0 * velocity * t));
+}
+
+/// Runner of the closed form. @param scatter  of each job's signal, by its parameters
+class ClosedForm {
+ public:
+  explicit ClosedForm(double scatter = 0.0) : scatter_(scatter) {}
+
+  [[nodiscard]] jobs::Runner runner() {
+    return [this](const jobs::JobSpec& spec, const engine::StopQuery&, const auto&...) { return run(spec); };
+  }
+  [[nodiscard]] int runs() const { return runs_; }
+
+ private:
+  engine::RunResult run(const jobs::JobSpec& spec) {
+    ++runs_;
+    engine::RunResult result;
+    const engine::RpsupParameters& p = spec.parameters;
+    if (p.restitution == 0.5) {
+      result.status = engine::RunStatus::kNonFinite;
+      result.detail = "no number";
+      return result;
+    }
+    std::mt19937_64 random(static_cast<std::uint64_t>(1e12 * p.c_r));
+    std::normal_distribution<double> noise;
+    result.trajectory.columns.resize(2);
+    const double rate = spec.options.output_rate;
+    const auto samples = static_cast<int>(std::floor(spec.options.duration * rate + 1e-9));
+    double wandering = 0.0;
+    for (int k = 0; k <= samples; ++k) {
+      const double t = k / rate;
+      wandering += scatter_ * noise(random);
+      result.trajectory.columns[0].push_back(t);
+      result.trajectory.columns[1].push_back(
+          position(1e3 * p.c_r, p.restitution, p.crank_velocity, t + wandering));
+    }
+    result.trajectory.channels = {{.key = "t_s", .help = "Time"}, {.key = kChannel, .help = "Position"}};
+    result.metrics.assign(engine::metric_table().size(), 1.0);
+    return result;
+  }
+
+  double scatter_;
+  std::atomic<int> runs_ = 0;
+};
+
+jobs::ServiceOptions options_of(const TemporaryStore& store, ClosedForm& form) {
+  jobs::ServiceOptions options = jobs_tests::options_of(store, 2);
+  options.runner = form.runner();
+  return options;
+}
+
+/// Measured runs at some velocities, with 1 % of noise.
+jobs::Measurement measured(const std::vector<double>& velocities, double gain = 1.0, double delay_s = 0.0) {
+  jobs::Measurement made;
+  made.name = "rig";
+  made.channels = {{.name = kChannel, .column = kChannel}};
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0.0, 0.01 * 0.3);
+  for (const double velocity : velocities) {
+    jobs::MeasuredRun run;
+    run.parameters = {{"crank_velocity_rad_s", velocity}};
+    run.columns.resize(1);
+    for (int k = 20; k < 400; ++k) {
+      const double t = k / 200.0;
+      run.time_s.push_back(t);
+      run.columns[0].push_back(gain * position(0.3, 0.8, velocity, t - delay_s) + noise(random));
+    }
+    made.runs.push_back(std::move(run));
+  }
+  return made;
+}
+
+ordered_json fit_request(const std::string& measurement) {
+  return {
+      {"name", "rig"},
+      {"parameters", {{"run_up_s", 0.1}}},
+      {"over", {{"clearance_mm", {{"from", 0.1}, {"to", 0.5}}}, {"restitution", {{"from", 0.6}, {"to", 1}}}}},
+      {"measurements", {{{"id", measurement}}}}};
+}
+
+json wait_for_fit(const jobs::Service& service, const std::string& id) {
+  for (int tries = 0; tries < 8000; ++tries) {
+    json study = service.find_study(kFit, id).value();
+    if (study.at("state") != "running") return study;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  throw std::runtime_error("the fit does not end");
+}
+
+json run_fit(jobs::Service& service, const ordered_json& request) {
+  return wait_for_fit(service, service.submit_study(kFit, request).at("id"));
+}
+
+std::string store_measurement(jobs::Service& service, const jobs::Measurement& measurement) {
+  return service.submit_measurement(measurement, "").at("id");
+}
+
+std::set<std::string> fit_faults_of(jobs::Service& service, const ordered_json& request) {
+  try {
+    (void)service.submit_study(kFit, request);
+  } catch (const jobs::InvalidRequest& invalid) {
+    std::set<std::string> pointers;
+    for (const jobs::Fault& fault : invalid.faults()) pointers.insert(fault.pointer);
+    return pointers;
+  }
+  return {};
+}
+
+json parameter_of(const json& fit, const std::string& path) {
+  for (const json& one : fit.at("parameters"))
+    if (one.at("path") == path) return one;
+  throw std::runtime_error("the fit has no " + path);
+}
+
+TEST(Fit, FindsTheParametersOfTheMeasuredSignals) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4, 6, 5})));
+  request["measurements"][0]["held_back_runs"] = {2};
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(ended.at("basis"), "point_wise");
+  EXPECT_LT(ended.at("divergence").at("ratio"), 0.001);
+  for (const auto& [path, truth] :
+       std::vector<std::pair<std::string, double>>{{"clearance_mm", 0.3}, {"restitution", 0.8}}) {
+    const json found = parameter_of(ended, path);
+    EXPECT_NEAR(found.at("value").get<double>(), truth, 0.005) << path;
+    EXPECT_EQ(found.at("identified"), true) << path;
+    for (const char* const kind : {"linearised", "profile"}) {
+      EXPECT_LT(found.at(kind).at("low").get<double>(), truth) << path;
+      EXPECT_GT(found.at(kind).at("high").get<double>(), truth) << path;
+    }
+  }
+  EXPECT_EQ(ended.at("signals").size(), 3U);
+  EXPECT_TRUE(ended.at("signals")[2].at("fitted").is_null());
+  EXPECT_NEAR(ended.at("signals")[2].at("held_back").at("rms").get<double>(), 0.003, 0.0005);
+  EXPECT_NEAR(ended.at("correlation")[0][1].get<double>(), ended.at("correlation")[1][0].get<double>(),
+              1e-12);
+  const auto rows = service.find_study_table(kFit, ended.at("id")).value().rows.size();
+  EXPECT_EQ(static_cast<std::size_t>(form.runs()), 2 * rows + 1)
+      << "the run held back at the best point alone";
+  const auto signals = service.find_study_signals(kFit, ended.at("id")).value();
+  EXPECT_EQ(signals.rows.size(), 3U * 380U);
+}
+
+TEST(Fit, FindsGainAndDelayOfASensorWithoutMoreJobs) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4}, 2.0, 0.03)));
+  request["over"] = {{"restitution", {{"from", 0.6}, {"to", 1}}},
+                     {"sensor.slider_position_m.gain", {{"from", 0.5}, {"to", 4}, {"scale", "log"}}},
+                     {"sensor.slider_position_m.delay_s", {{"from", 0}, {"to", 0.08}}}};
+  request["parameters"]["clearance_mm"] = 0.3;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_NEAR(parameter_of(ended, "sensor.slider_position_m.gain").at("value").get<double>(), 2.0, 0.02);
+  EXPECT_NEAR(parameter_of(ended, "sensor.slider_position_m.delay_s").at("value").get<double>(), 0.03, 0.001);
+  EXPECT_LT(form.runs(), ended.at("points").at("succeeded")) << "points that differ in a sensor share jobs";
+}
+
+TEST(Fit, GivesARunAParameterOfItsOwn) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4, 6})));
+  request["over"] = {{"clearance_mm", {{"from", 0.1}, {"to", 0.5}}},
+                     {"runs.1.crank_velocity_rad_s", {{"from", 5}, {"to", 7}}}};
+  request["parameters"]["restitution"] = 0.8;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_NEAR(parameter_of(ended, "runs.1.crank_velocity_rad_s").at("value").get<double>(), 6.0, 0.01);
+  EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.005);
+}
+
+TEST(Fit, SharesTheJobsOfRunsThatAreRepeated) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4, 4, 6, 5, 5, 3})));
+  request["measurements"][0]["held_back_runs"] = {3, 4, 5};
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(ended.at("signals").size(), 6U);
+  EXPECT_EQ(form.runs(), 2 * ended.at("points").at("succeeded").get<int>() + 2);
+}
+
+TEST(Fit, EndsWhereItsNumbersCannotGoOn) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  jobs::Measurement constant = measured({4});
+  for (double& y : constant.runs[0].columns[0]) y = 1.0;
+  ordered_json request = fit_request(store_measurement(service, constant));
+  request["measurements"][0]["channels"] = {{kChannel, {{"noise", 1e-9}}}};
+  const std::string id = service.submit_study(kFit, request).at("id");
+  const json good = run_fit(service, fit_request(store_measurement(service, measured({4}))));
+  EXPECT_EQ(good.at("state"), "succeeded") << "beside any other fit";
+  EXPECT_NE(wait_for_fit(service, id).at("state"), "running");
+}
+
+TEST(Fit, SaysWhatTheSignalsDoNotTell) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4})));
+  request["over"]["friction_kinetic"] = {{"from", 0.1}, {"to", 0.3}};
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(parameter_of(ended, "friction_kinetic").at("identified"), false);
+  EXPECT_EQ(parameter_of(ended, "clearance_mm").at("identified"), true);
+  EXPECT_NE(ended.at("remarks").dump().find("friction_kinetic"), std::string::npos) << ended.at("remarks");
+}
+
+TEST(Fit, ComparesFeaturesOfMotionsThatDiverge) {
+  const TemporaryStore store;
+  ClosedForm form(0.02);
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4})));
+  request["over"] = {{"clearance_mm", {{"from", 0.1}, {"to", 0.5}}}};
+  request["parameters"]["restitution"] = 0.8;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(ended.at("basis"), "features");
+  EXPECT_GT(ended.at("divergence").at("ratio"), 0.1);
+  EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.03);
+}
+
+TEST(Fit, GoesOnAfterARestartWithoutRepeatingAJob) {
+  const TemporaryStore store;
+  ClosedForm form;
+  std::string id;
+  json undisturbed;
+  {
+    const TemporaryStore other;
+    ClosedForm alone;
+    jobs::Service service(options_of(other, alone));
+    undisturbed = run_fit(service, fit_request(store_measurement(service, measured({4}))));
+  }
+  {
+    jobs::Service service(options_of(store, form));
+    id = service.submit_study(kFit, fit_request(store_measurement(service, measured({4})))).at("id");
+    while (form.runs() < 40) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    service.stop();
+  }
+  jobs::Service service(options_of(store, form));
+  const json ended = wait_for_fit(service, id);
+  EXPECT_EQ(ended.at("parameters"), undisturbed.at("parameters"));
+  EXPECT_EQ(ended.at("points"), undisturbed.at("points"));
+  EXPECT_LE(form.runs(), ended.at("points").at("succeeded").get<int>() + 2)
+      << "but for those that were cut off";
+}
+
+TEST(Fit, GoesOnBesideJobsThatFail) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4})));
+  request["over"]["restitution"] = {{"from", 0.4}, {"to", 1}, {"start", 0.5}};
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(ended.at("points").at("lost"), 1);
+  EXPECT_NEAR(parameter_of(ended, "restitution").at("value").get<double>(), 0.8, 0.01);
+}
+
+TEST(Fit, KeepsAMeasurementThatItNeeds) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  const std::string measurement = store_measurement(service, measured({4}));
+  const json ended = run_fit(service, fit_request(measurement));
+  EXPECT_THROW((void)service.delete_measurement(measurement), jobs::WrongState);
+  EXPECT_TRUE(service.delete_study(kFit, ended.at("id")));
+  EXPECT_TRUE(service.delete_measurement(measurement));
+}
+
+TEST(Fit, RefusesEachFaultWithItsPlace) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  const std::string measurement = store_measurement(service, measured({4, 6}));
+  const ordered_json right = fit_request(measurement);
+  const auto faults = [&](const char* patch) {
+    ordered_json request = right;
+    request.merge_patch(ordered_json::parse(patch));
+    return fit_faults_of(service, request);
+  };
+  using Places = std::set<std::string>;
+  EXPECT_EQ(faults(R"({"over": {}, "wrong": 1})"), Places{"/wrong"});
+  EXPECT_EQ(faults(R"({"over": null})"), Places{"/over"});
+  EXPECT_EQ(faults(R"({"over": {"clearance_mm": {"from": 0.5, "to": 0.1}}})"),
+            Places{"/over/clearance_mm/to"});
+  EXPECT_EQ(faults(R"({"over": {"clearence_mm": {"from": 0.1, "to": 0.5}}})"), Places{"/over/clearence_mm"});
+  EXPECT_EQ(faults(R"({"over": {"sensor.x.gain": {"from": 1, "to": 2}}})"), Places{"/over/sensor.x.gain"});
+  EXPECT_EQ(faults(R"({"over": {"runs.5.clearance_mm": {"from": 0.1, "to": 0.5}}})"),
+            Places{"/over/runs.5.clearance_mm"});
+  EXPECT_EQ(faults(R"({"over": {"runs.0.clearance_mm": {"from": 0.1, "to": 0.5}}})"),
+            Places{"/over/runs.0.clearance_mm"});
+  EXPECT_EQ(faults(R"({"over": {"radial_levels": {"from": 1, "to": 4}}})"), Places{"/over/radial_levels"});
+  EXPECT_EQ(faults(R"({"budget": 40, "population": 11})"), Places{"/population"});
+  EXPECT_EQ(faults(R"({"parameters": {"clearance_mm": 0.2}})"), Places{"/over/clearance_mm"});
+  EXPECT_EQ(faults(R"({"measurements": []})"), Places{"/measurements"});
+  EXPECT_EQ(faults(R"({"measurements": [{"id": "mea_none"}]})"), Places{"/measurements/0/id"});
+  EXPECT_EQ(faults(R"({"basis": "best", "intervals": 1, "budget": 1, "samples": -1, "replicates": 0.5})"),
+            (Places{"/basis", "/intervals", "/budget", "/samples", "/replicates"}));
+  EXPECT_EQ(faults(R"({"parameters": {"duration_s": 0.05}})"), Places{"/measurements"});
+  const auto measurement_faults = [&](const char* patch) {
+    ordered_json request = right;
+    request["measurements"][0].merge_patch(ordered_json::parse(patch));
+    return fit_faults_of(service, request);
+  };
+  EXPECT_EQ(measurement_faults(R"({"runs": [2], "held_back_runs": [1]})"),
+            (Places{"/measurements/0/runs/0", "/measurements/0/held_back_runs"}));
+  EXPECT_EQ(measurement_faults(R"({"channels": {"slider_speed": {}}})"),
+            Places{"/measurements/0/channels/slider_speed"});
+  EXPECT_EQ(measurement_faults(R"({"channels": {"slider_position_m": {"noise": 0}}})"),
+            Places{"/measurements/0/channels/slider_position_m/noise"});
+  EXPECT_EQ(
+      measurement_faults(R"({"fitted": [[1, 0]], "held_back": 3, "time_shift_s": "1"})"),
+      (Places{"/measurements/0/fitted/0", "/measurements/0/held_back", "/measurements/0/time_shift_s"}));
+  EXPECT_EQ(measurement_faults(R"({"held_back_runs": [0, 1]})"), Places{"/measurements"});
+  EXPECT_EQ(measurement_faults(R"({"channels": {"slider_position_m": {"weight": 1e308}}})"),
+            Places{"/measurements/0/channels/slider_position_m"});
+}
+
+}  // namespace
+}  // namespace jobs_tests
