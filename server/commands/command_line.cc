@@ -32,7 +32,7 @@
 #include "server/commands/serve.h"
 #include "server/commands/service_token.h"
 #include "server/commands/simulate.h"
-#include "server/commands/optimise.h"
+#include "server/commands/study.h"
 #include "server/commands/sweep.h"
 #include "server/commands/validate.h"
 
@@ -340,6 +340,7 @@ int run_command_line(int argc, char** argv) {
   SimulateOptions simulate_options;
   SweepOptions sweep_options;
   SweepOptions optimise_options;
+  SweepOptions fit_options;
   ServeOptions serve_options;
   PaperOptions paper_options;
   ExportOptions export_options;
@@ -358,6 +359,11 @@ int run_command_line(int argc, char** argv) {
                                           "a server",
                                           "optimisation", optimise_options),
                       [&] { return optimise(optimise_options); }});
+  commands.push_back({add_request_command(app, "fit",
+                                          "Look for the parameters with which jobs give measured signals, "
+                                          "without a server",
+                                          "fit", fit_options),
+                      [&] { return fit(fit_options); }});
   add_validate(app);
   commands.push_back({add_paper(app, paper_options), [&] { return hold_against_paper(paper_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
@@ -367,7 +373,7 @@ int run_command_line(int argc, char** argv) {
   commands.push_back({add_completion(app, shell), [&] { return print_completion(app, shell); }});
   commands.push_back({app.add_subcommand("man", "Print the manual page: rpsup man | man -l -"),
                       [&] { return print_man_page(app); }});
-  for (const char* const name : {"simulate", "sweep", "optimise", "serve", "check-cluster"})
+  for (const char* const name : {"simulate", "sweep", "optimise", "fit", "serve", "check-cluster"})
     add_numerics_option(*app.get_subcommand(name), numerics);
   try {
     std::vector<std::string> arguments = read_arguments(argc, argv);

@@ -2,16 +2,17 @@
 #include "server/openapi/resource_schemas.h"
 
 #include "engine/analysis/quantities.h"
+#include "jobs/base/executor_names.h"
+#include "jobs/base/states.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/results/result_query.h"
-#include "jobs/base/executor_names.h"
 #include "jobs/statistics/replicate_statistics.h"
-#include "jobs/base/states.h"
 #include "server/openapi/analysis_schemas.h"
+#include "server/openapi/fit_schemas.h"
 #include "server/openapi/measurement_schemas.h"
+#include "server/openapi/optimisation_schemas.h"
 #include "server/openapi/quantity_schemas.h"
 #include "server/openapi/search_schemas.h"
-#include "server/openapi/optimisation_schemas.h"
 #include "server/openapi/wear_schemas.h"
 
 namespace server::openapi {
@@ -168,41 +169,43 @@ Json make_result_row() {
 
 Json make_trajectory() {
   return object_of({{"channels", described(list_of(kText), "the columns in their order")},
-                    {"columns", {{"type", "object"},
-                                 {"required", {"t_s"}},
-                                 {"properties", channel_properties(column_of_numbers)},
-                                 {"patternProperties", linkage_channel_patterns(column_of_numbers)},
-                                 {"additionalProperties", column_of_numbers()}}}});
+                    {"columns",
+                     {{"type", "object"},
+                      {"required", {"t_s"}},
+                      {"properties", channel_properties(column_of_numbers)},
+                      {"patternProperties", linkage_channel_patterns(column_of_numbers)},
+                      {"additionalProperties", column_of_numbers()}}}});
 }
 
 }  // namespace
 
 Json make_resource_schemas() {
   Json schemas{{"Id", {{"type", "string"}, {"pattern", "^[A-Za-z0-9_-]{1,64}$"}}},
-          {"State", {{"type", "string"}, {"enum", jobs::kJobStates}}},
-          {"Problem", make_problem_schema()},
-          {"Metrics", make_metrics()},
-          {"JobError", make_error()},
-          {"Run", make_run()},
-          {"Job", make_job(Detail::kFull)},
-          {"JobSummary", make_job(Detail::kListing)},
-          {"JobPage", make_page_schema("JobSummary")},
-          {"Sweep", make_sweep(Detail::kFull)},
-          {"SweepSummary", make_sweep(Detail::kListing)},
-          {"SweepPage", make_page_schema("SweepSummary")},
-          {"Executors", make_executors()},
-          {"ResultRow", make_result_row()},
-          {"ResultRows", list_of(ref("ResultRow"))},
-          {"Trajectory", make_trajectory()},
-          {"JsonSchema", {{"type", "object"}, {"required", {"$schema", "properties"}}}},
-          {"OpenApi", {{"type", "object"}, {"required", {"openapi", "info", "paths"}}}},
-          {"Status", object_of({{"status", kText}, {"reason", described(kText, "Of the status full")}},
-                               {"reason"})},
-          {"Text", kText},
-          {"Binary", Json::object()}};
+               {"State", {{"type", "string"}, {"enum", jobs::kJobStates}}},
+               {"Problem", make_problem_schema()},
+               {"Metrics", make_metrics()},
+               {"JobError", make_error()},
+               {"Run", make_run()},
+               {"Job", make_job(Detail::kFull)},
+               {"JobSummary", make_job(Detail::kListing)},
+               {"JobPage", make_page_schema("JobSummary")},
+               {"Sweep", make_sweep(Detail::kFull)},
+               {"SweepSummary", make_sweep(Detail::kListing)},
+               {"SweepPage", make_page_schema("SweepSummary")},
+               {"Executors", make_executors()},
+               {"ResultRow", make_result_row()},
+               {"ResultRows", list_of(ref("ResultRow"))},
+               {"Trajectory", make_trajectory()},
+               {"JsonSchema", {{"type", "object"}, {"required", {"$schema", "properties"}}}},
+               {"OpenApi", {{"type", "object"}, {"required", {"openapi", "info", "paths"}}}},
+               {"Status", object_of({{"status", kText}, {"reason", described(kText, "Of the status full")}},
+                                    {"reason"})},
+               {"Text", kText},
+               {"Binary", Json::object()}};
   schemas.update(make_search_schemas());
   schemas.update(make_wear_schemas());
   schemas.update(make_optimisation_schemas());
+  schemas.update(make_fit_schemas());
   schemas.update(make_measurement_schemas());
   schemas.update(make_analysis_schemas());
   return schemas;

@@ -155,6 +155,27 @@ std::vector<Route> make_optimisation_routes() {
        .name = "an optimisation"});
 }
 
+std::vector<Route> make_fit_routes() {
+  std::vector<Route> routes = make_study_routes<FitRoutes>(
+      {.path = "/v1/fits", .tag = "fits", .schema = "Fit", .rows = "FitPointRows", .noun = "Fit",
+       .nouns = "Fits", .rows_id = "getFitPoints",
+       .submit = "Look for the values of parameters with which jobs give measured signals",
+       .list = "Fits, the newest first",
+       .get = "State and progress of a fit, the values that it found, and how sure they are",
+       .erase = "Delete a fit that has ended, with the sweep of its jobs",
+       .table = "Table of points: a row for each, with its values and the sum of the squares of its "
+                "residuals",
+       .name = "a fit"});
+  routes.push_back({.method = "GET", .pattern = "/v1/fits/{id}/signals", .handler = FitRoutes::get_signals,
+                    .operation_id = "getFitSignals", .tag = "fits",
+                    .summary = "Table of measured and predicted samples with the best values",
+                    .query = {"row_format", "fields", "order_by", "row_limit", "columns"},
+                    .headers = {"if_none_match"},
+                    .answers = {{kJson, "FitSignalRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
+                    .bodiless = {304}, .problems = {404, 422}});
+  return routes;
+}
+
 std::vector<Route> make_analysis_routes() {
   return {
       {.method = "GET", .pattern = "/v1/sweeps/{id}/sensitivity", .handler = get_sensitivity,
@@ -319,7 +340,8 @@ std::vector<Route> make_other_routes() {
 std::vector<Route> make_route_table() {
   std::vector<Route> table;
   for (const auto& part : {make_sweep_routes(), make_search_routes(), make_wear_routes(),
-                           make_optimisation_routes(), make_analysis_routes(), make_job_routes(),
+                           make_optimisation_routes(), make_fit_routes(), make_analysis_routes(),
+                           make_job_routes(),
                            make_measurement_routes(), make_other_routes()}) {
     table.insert(table.end(), part.begin(), part.end());
   }

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,12 +32,24 @@ Resource study_resource(StudyKind kind, const RequestContext& context) {
   jobs::Service& service = context.service;
   return {.path = std::string(kind_info(kind).path) + "/",
           .find = [&service, kind](const std::string& id) { return service.find_study(kind, id); },
-          .wait_for =
-              [&service, kind](const std::string& id, std::chrono::seconds at_most) {
-                service.wait_for_study(kind, id, at_most);
-              },
+          .wait_for = [&service, kind](
+                          const std::string& id,
+                          std::chrono::seconds at_most) { service.wait_for_study(kind, id, at_most); },
           .has_ended = [](const nlohmann::json& found) { return found.at("state") != "running"; },
           .missing = [kind](const std::string& id) { return no_such(kind, id); }};
+}
+
+/// @param suffix  of the name of the file
+Response answer_with_rows(
+    const RequestContext& context, StudyKind kind, const std::string& suffix,
+    const std::function<std::optional<jobs::ResultTable>(const jobs::ResultQuery&)>& find_table) {
+  Query query(context.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
+  const TableFormat format = find_row_format(context.request, query);
+  const jobs::ResultQuery wanted = read_result_query(query);
+  const auto table = query.check_and([&] { return find_table(wanted); });
+  if (!table) throw no_such(kind, context.id);
+  const std::string name = std::string(kind_info(kind).file_name) + "-" + context.id + suffix;
+  return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), name));
 }
 
 }  // namespace
@@ -70,14 +84,16 @@ Response StudyRoutes<kKind>::erase(const RequestContext& context) {
 
 template <StudyKind kKind>
 Response StudyRoutes<kKind>::get_results(const RequestContext& context) {
-  Query query(context.request, {"format", "fields", "order_by", "limit"}, Query::Others::kKept);
-  const TableFormat format = find_row_format(context.request, query);
-  const jobs::ResultQuery wanted = read_result_query(query);
-  const auto table =
-      query.check_and([&] { return context.service.find_study_table(kKind, context.id, wanted); });
-  if (!table) throw no_such(kKind, context.id);
-  const std::string name = std::string(kind_info(kKind).file_name) + "-" + context.id;
-  return with_etag_if(table->ended, context.request, make_table(format, to_text(*table, format), name));
+  return answer_with_rows(context, kKind, "", [&](const jobs::ResultQuery& wanted) {
+    return context.service.find_study_table(kKind, context.id, wanted);
+  });
+}
+
+template <StudyKind kKind>
+Response StudyRoutes<kKind>::get_signals(const RequestContext& context) {
+  return answer_with_rows(context, kKind, "-signals", [&](const jobs::ResultQuery& wanted) {
+    return context.service.find_study_signals(kKind, context.id, wanted);
+  });
 }
 
 template <StudyKind kKind>
@@ -105,5 +121,6 @@ Response StudyRoutes<kKind>::retry(const RequestContext& context) {
 template struct StudyRoutes<StudyKind::kLimit>;
 template struct StudyRoutes<StudyKind::kWear>;
 template struct StudyRoutes<StudyKind::kOptimisation>;
+template struct StudyRoutes<StudyKind::kFit>;
 
 }  // namespace server

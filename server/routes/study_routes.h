@@ -14,6 +14,7 @@ struct StudyRoutes {
   static Response get(const RequestContext& context);
   static Response erase(const RequestContext& context);
   static Response get_results(const RequestContext& context);
+  static Response get_signals(const RequestContext& context);
   static Response get_events(const RequestContext& context);
   static Response cancel(const RequestContext& context);
   static Response retry(const RequestContext& context);
@@ -22,5 +23,6 @@ struct StudyRoutes {
 using SearchRoutes = StudyRoutes<jobs::StudyKind::kLimit>;
 using WearRoutes = StudyRoutes<jobs::StudyKind::kWear>;
 using OptimisationRoutes = StudyRoutes<jobs::StudyKind::kOptimisation>;
+using FitRoutes = StudyRoutes<jobs::StudyKind::kFit>;
 
 }  // namespace server

@@ -14,7 +14,7 @@ function encoded(text) {
 export class Client {
   constructor(url) {
     this.url = new URL(url);
-    this.ids = { sweeps: [], searches: [], "wear-studies": [], optimisations: [], jobs: [] };
+    this.ids = { sweeps: [], searches: [], "wear-studies": [], optimisations: [], fits: [], jobs: [] };
   }
 
   /** The request as it is sent: {method, target, headers, body}, of a generated one. */

@@ -18,6 +18,7 @@ const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shown
 /// Link to the study that a sweep belongs to. @param {{ study_id: string | null }} sweep
 export function studyBadge({ study_id: id }) {
   if (!id) return "";
+  if (id.startsWith("fit_")) return h("span", { class: "badge", title: `These jobs are those of the fit ${id}` }, "fit");
   if (id.startsWith("opt_")) return h("span", { class: "badge", title: `These jobs are those of the optimisation ${id}` }, "optimisation");
   const [page, text] = id.startsWith("sch_") ? ["searches", "search"] : ["wear", "wear study"];
   return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);

@@ -5,7 +5,7 @@ kill_loop.py PROGRAM [--rounds N] [--seed N] [--longest SECONDS]
 
 After every kill: the files as they were left are sound, a new start is ready within 1 s, and every sweep and study that was acknowledged is
 there. At the end: each was stored once (requests that were cut off are sent again under their key), each job has one result, studies have gone
-on to their ends, and tables of results, limits and cycles are equal to the byte to those of a service that nobody disturbed.
+on to their ends, and tables of results, limits, cycles and points are equal to the byte to those of a service that nobody disturbed.
 """
 
 import argparse
@@ -20,7 +20,7 @@ from collections import Counter
 from service import NoAnswer, Service, check, check_integrity, copy_store, small_sweep, temporary_folder
 
 KINDS = 12  # different requests; the same again reuses results, unless it asks not to
-STUDIES = {4: "/v1/searches", 7: "/v1/wear-studies", 10: "/v1/optimisations"}  # by kind; the others are sweeps
+STUDIES = {1: "/v1/fits", 4: "/v1/searches", 7: "/v1/wear-studies", 10: "/v1/optimisations"}  # by kind; the others are sweeps
 
 
 class Ledger:
@@ -57,15 +57,30 @@ def request_of(number):
     if path == "/v1/optimisations":  # the second generation with what the first has shown
         over = {"clearance_mm": {"from": 0.02, "to": 0.5}}
         return {**request, "over": over, "objectives": [{"metric": "peak_slider_acceleration_m_s2"}], "budget": 12, "starts": 1}
+    if path == "/v1/fits":
+        return {**request, "over": {"clearance_mm": {"from": 0.02, "to": 0.5}}, "budget": 20, "population": 5, "intervals": "linearised"}
     over = {"from": 0.02, "to": 0.5, "first": 3, "tolerance": 0.02}  # then it halves, each time with what the last job has shown
     return {**request, "over": {"clearance_mm": over}, "metric": "peak_slider_acceleration_m_s2", "bound": 100}
 
 
+def stored_measurement(service):
+    """Id of a measurement that every store has once."""
+    times = [k / 1000 for k in range(40)]
+    measurement = {"channels": [{"name": "slider_position_m"}],
+                   "runs": [{"time_s": times, "values": {"slider_position_m": [0.1 + 0.2 * t * t for t in times]}}]}
+    status, _, text = service.ask("POST", "/v1/measurements", measurement, {"Idempotency-Key": "kill-measurement"})
+    check(status == 201, f"POST /v1/measurements: {status} {text[:300]}")
+    return json.loads(text)["id"]
+
+
 def submit(service, ledger, number):
+    path = kind_path(number)
+    request = request_of(number)
+    if path == "/v1/fits":
+        request["measurements"] = [{"id": stored_measurement(service), "fitted": [[0, 1]]}]
     with ledger.lock:
         ledger.cut_off.add(number)
-    path = kind_path(number)
-    status, _, text = service.ask("POST", path, request_of(number), {"Idempotency-Key": f"kill-{number}"})
+    status, _, text = service.ask("POST", path, request, {"Idempotency-Key": f"kill-{number}"})
     check(status == 201, f"POST {path}: {status} {text[:300]}")
     with ledger.lock:
         ledger.cut_off.discard(number)
