@@ -292,7 +292,7 @@ std::vector<Route> make_measurement_routes() {
        .problems = {404, 422}},
       {.method = "DELETE", .pattern = "/v1/measurements/{id}", .handler = delete_measurement,
        .operation_id = "deleteMeasurement", .tag = "measurements", .summary = "Delete a measurement",
-       .success = 204, .problems = {404, 422}},
+       .success = 204, .problems = {404, 409, 422}},
   };
 }
 
