@@ -45,6 +45,8 @@ constexpr std::size_t kMostSearches = 4;
 /// Least size of the box of a search, as part of a span.
 constexpr double kLeastBox = 1e-3;
 
+/// Part of the sum of squares by which the noise of a measurement is known too little.
+constexpr double kNoiseMisfit = 0.05;
 /// Steps of the differences of least squares, one after the other: the long ones lead across what is rugged.
 constexpr std::array<double, 4> kDifferenceSteps{1e-2, 1e-3, 1e-4, 1e-5};
 
@@ -344,7 +346,9 @@ void FitSampler::end_local(LeastSquaresResult result) {
     choose_best(base_points_);
     if (step_ == 0 && !ends_) set_box(result);
     if (!ends_ && step_ + 1 < kDifferenceSteps.size()) return begin_local(best_, step_ + 1);
-    leaves_noise_ = observer_->is_noise(as_vector(result.residuals));
+    const std::vector<double> residuals = as_vector(result.residuals);
+    leaves_noise_ =
+        observer_->is_noise(residuals) && observer_->misfit(residuals) < kNoiseMisfit * result.sum;
     if (!leaves_noise_ && !ends_ && search_ + 1 < kMostSearches && summary_.points.size() < global_limit_) {
       ++search_;
       return begin_global();
