@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/openapi/fit_schemas.h"
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,18 +12,6 @@
 namespace server::openapi {
 
 namespace {
-
-/// Property of the schema of a sweep's request.
-Json of_sweep(std::string_view property) {
-  return {{"$ref", "#/components/schemas/SweepRequest/properties/" + std::string(property)}};
-}
-
-Json count_in(const jobs::Range& range, std::string_view description) {
-  return described({{"type", "integer"},
-                    {"minimum", static_cast<std::int64_t>(range.minimum)},
-                    {"maximum", static_cast<std::int64_t>(range.maximum)}},
-                   description);
-}
 
 Json choice_of(std::initializer_list<const char*> values, std::string_view description) {
   return described({{"type", "string"}, {"enum", Json(values)}}, description);
@@ -78,7 +65,7 @@ Json make_fit_request() {
   measurements["minItems"] = 1;
   measurements["maxItems"] = jobs::kMostFittedMeasurements;
   Json request = object_of(
-      {{"name", of_sweep("name")},
+      {{"name", as_in_sweep("name")},
        {"parameters", ref("Parameters")},
        {"over", make_parameters_of_fit()},
        {"measurements", std::move(measurements)},
@@ -88,15 +75,16 @@ Json make_fit_request() {
                   "diverge or do not")},
        {"intervals", choice_of({"profile", "linearised"}, "how sure the values are")},
        {"replicates",
-        count_in(jobs::kFitReplicatesRange, "jobs a point and run, where features are compared")},
-       {"samples",
-        count_in(jobs::kFitSamplesRange, "most samples that are compared; others are left out evenly")},
-       {"budget", count_in(jobs::kFitBudgetRange, "most points")},
-       {"population", count_in(jobs::kFitPopulationRange, "points of a generation of the population search")},
-       {"seed", count_in(jobs::kFitSeedRange, "of the random numbers")},
-       {"priority", of_sweep("priority")},
-       {"executor", of_sweep("executor")},
-       {"reuse", of_sweep("reuse")}},
+        integer_between(jobs::kFitReplicatesRange, "jobs a point and run, where features are compared")},
+       {"samples", integer_between(jobs::kFitSamplesRange,
+                                   "most samples that are compared; others are left out evenly")},
+       {"budget", integer_between(jobs::kFitBudgetRange, "most points")},
+       {"population",
+        integer_between(jobs::kFitPopulationRange, "points of a generation of the population search")},
+       {"seed", integer_between(jobs::kFitSeedRange, "of the random numbers")},
+       {"priority", as_in_sweep("priority")},
+       {"executor", as_in_sweep("executor")},
+       {"reuse", as_in_sweep("reuse")}},
       {"name", "parameters", "basis", "intervals", "replicates", "samples", "budget", "population", "seed",
        "priority", "executor", "reuse"});
   request["description"] =

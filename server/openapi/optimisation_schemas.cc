@@ -11,18 +11,6 @@ namespace server::openapi {
 
 namespace {
 
-/// Property of the schema of a sweep's request.
-Json as_in_sweep(std::string_view property) {
-  return {{"$ref", "#/components/schemas/SweepRequest/properties/" + std::string(property)}};
-}
-
-Json integer_between(const jobs::Range& range, std::string_view description) {
-  return described({{"type", "integer"},
-                    {"minimum", static_cast<std::int64_t>(range.minimum)},
-                    {"maximum", static_cast<std::int64_t>(range.maximum)}},
-                   description);
-}
-
 Json make_quantile_of_jobs(std::string_view description) {
   return described({{"type", "number"}, {"minimum", 0}, {"maximum", 1}}, description);
 }

@@ -2,6 +2,7 @@
 #include "server/openapi/schema_parts.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "jobs/parameters/rpsup_drives.h"
 #include "jobs/parameters/wear_depth.h"
@@ -55,6 +56,17 @@ void add_parameters_of_row(Json& properties) {
     properties[std::string(drive.key)] =
         described(or_null(kText), "the law or actuator, with a number if another drive of the sweep has it");
   properties[std::string(jobs::kWearKey)] = described(or_null(kNumber), "the largest depth, in um");
+}
+
+Json as_in_sweep(std::string_view property) {
+  return {{"$ref", "#/components/schemas/SweepRequest/properties/" + std::string(property)}};
+}
+
+Json integer_between(const jobs::Range& range, std::string_view description) {
+  return described({{"type", "integer"},
+                    {"minimum", static_cast<std::int64_t>(range.minimum)},
+                    {"maximum", static_cast<std::int64_t>(range.maximum)}},
+                   description);
 }
 
 }  // namespace server::openapi

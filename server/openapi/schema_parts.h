@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "jobs/parameters/range.h"
+
 namespace server::openapi {
 
 using Json = nlohmann::ordered_json;
@@ -33,6 +35,12 @@ inline const Json kCount{{"type", "integer"}, {"minimum", 0}};
 [[nodiscard]] Json list_of(Json items);
 
 [[nodiscard]] Json described(Json schema, std::string_view description);
+
+/// An integer in a range.
+[[nodiscard]] Json integer_between(const jobs::Range& range, std::string_view description);
+
+/// The property of the schema of a sweep's request.
+[[nodiscard]] Json as_in_sweep(std::string_view property);
 
 /// What a schema describes, or null.
 [[nodiscard]] Json or_null(Json schema);
