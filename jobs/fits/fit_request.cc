@@ -15,6 +15,7 @@
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
+#include "jobs/requests/request_parser.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/requests/variable.h"
 
@@ -61,13 +62,12 @@ double even_rate(const std::vector<double>& time_s) {
 }
 
 /// Reader of one request; a member function a part of it.
-class FitParser {
+class FitParser : private RequestParser {
  public:
   FitParser(const ordered_json& request, const FindMeasurement& find_measurement, std::size_t max_jobs)
-      : request_(request), find_measurement_(find_measurement), max_jobs_(max_jobs) {}
+      : RequestParser(request), find_measurement_(find_measurement), max_jobs_(max_jobs) {}
 
   FitProblem parse() {
-    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
     check_keys_of(json(request_), "", kFitRequestKeys);
     read_common();
     read_measurements();
@@ -90,38 +90,12 @@ class FitParser {
   }
 
  private:
-  void fault(std::string pointer, std::string detail) {
-    faults_.push_back({std::move(pointer), std::move(detail)});
-  }
-
-  bool is_right(const std::string& pointer, std::string detail) {
-    const bool right = detail.empty();
-    if (!right) fault(pointer, std::move(detail));
-    return right;
-  }
-
-  void throw_if_faulty() {
-    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
-  }
-
-  template <std::size_t n>
-  void check_keys_of(const json& given, const std::string& pointer,
-                     const std::array<std::string_view, n>& keys) {
-    for (const auto& [key, value] : given.items()) {
-      if (std::ranges::find(keys, key) == keys.end())
-        fault(pointer + pointer_token(key), describe_unknown_key(key, keys));
-    }
-  }
-
   void read_common() {
-    made_.common_sweep = ordered_json::object();
-    for (const std::string_view key : kSweepKeys) {
-      if (request_.contains(key)) made_.common_sweep[std::string(key)] = request_.at(key);
-    }
+    made_.common_sweep = parts_of(kSweepKeys);
     try {
       common_ = parse_sweep_request(made_.common_sweep, max_jobs_);
     } catch (const InvalidRequest& invalid) {
-      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+      add_faults(invalid);
     }
   }
 
@@ -228,13 +202,6 @@ class FitParser {
       }
       one.channels[name] = options;
     }
-  }
-
-  std::uint64_t read_integer(const char* key, const Range& range, std::uint64_t otherwise) {
-    if (!request_.contains(key)) return otherwise;
-    const json given = request_.at(key);
-    return is_right(std::string("/") + key, describe_integer_fault(range, given)) ? given.get<std::uint64_t>()
-                                                                                  : otherwise;
   }
 
   void read_numbers() {
@@ -602,7 +569,6 @@ class FitParser {
                            " are allowed");
   }
 
-  const ordered_json& request_;
   const FindMeasurement& find_measurement_;
   std::size_t max_jobs_;
   FitProblem made_;
@@ -612,7 +578,6 @@ class FitParser {
   std::vector<json> completed_;  ///< parameters of each run
   std::size_t most_samples_ = 0;
   std::size_t next_run_ = 0;
-  std::vector<Fault> faults_;
 };
 
 }  // namespace

@@ -50,12 +50,6 @@ constexpr double kNoiseMisfit = 0.05;
 /// Steps of the differences of least squares, one after the other: the long ones lead across what is rugged.
 constexpr std::array<double, 4> kDifferenceSteps{1e-2, 1e-3, 1e-4, 1e-5};
 
-double sum_of_squares(const std::vector<double>& residuals) {
-  double sum = 0.0;
-  for (const double value : residuals) sum += value * value;
-  return sum;
-}
-
 std::vector<double> as_vector(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
 
 bool has_jobs(const FitPointSummary& point) {
@@ -188,11 +182,6 @@ void FitSampler::set_basis(FitBasis basis) {
   if (is_point_wise()) return begin_global();
   summary_.stage = FitStage::kScatter;
   sum_features();
-}
-
-void FitSampler::sum_features() {
-  for (FitPointSummary& point : summary_.points)
-    if (point.sum) point.sum = sum_of_squares(feature_residuals(features_.at(point.point)));
 }
 
 FitSampler::Points FitSampler::run_scatter() {
@@ -439,162 +428,6 @@ FitSampler::Points FitSampler::tell_least_squares(const Points& points) {
     else evaluations_.tell_failed(point);
   }
   return missing;
-}
-
-FitSampler::Points FitSampler::missing_of(const Points& points) const {
-  Points missing;
-  for (const FitPoint& point : points)
-    if (!indices_.contains(point) && std::ranges::find(missing, point) == missing.end())
-      missing.push_back(point);
-  return missing;
-}
-
-FitSampler::Points FitSampler::replicates_of(const FitPoint& point) const {
-  Points points{point};
-  for (std::size_t k = 1; !is_point_wise() && k < problem_.replicates; ++k)
-    points.push_back(replicate_of(problem_, point, k));
-  return points;
-}
-
-void FitSampler::add_point(const FitPoint& point, NextCases& next) {
-  const auto [known, is_new] = indices_.try_emplace(point, summary_.points.size());
-  if (!is_new) return;
-  const std::size_t runs = problem_.runs.size();
-  summary_.points.push_back(
-      {.point = point, .stage = summary_.stage, .job_ids = std::vector<std::string>(runs)});
-  swept_.emplace_back(runs);
-  add_jobs(known->second, false, next);
-}
-
-void FitSampler::add_jobs(std::size_t index, bool held_back, NextCases& next) {
-  std::vector<ordered_json> cases(problem_.runs.size());
-  std::vector<std::string> swept = swept_[index];
-  try {
-    for (std::size_t run = 0; run < problem_.runs.size(); ++run) {
-      if (is_fitted(problem_, run) == held_back) continue;
-      ordered_json sweep = problem_.common_sweep;
-      sweep["cases"] = ordered_json::array({case_of(problem_, run, summary_.points[index].point)});
-      swept[run] = plan_sweep(sweep, 1).jobs.front().swept;
-      cases[run] = sweep["cases"][0];
-    }
-  } catch (const InvalidRequest& invalid) {
-    if (!first_invalid_) first_invalid_ = invalid;
-    if (!held_back) return lose(index, "invalid_parameters");
-    summary_.remarks.push_back(
-        "A run that is held back has no prediction, as its parameters do not fit the best values: " +
-        std::string(invalid.what()) + ".");
-    summary_.stage = FitStage::kEnded;
-    return;
-  }
-  for (std::size_t run = 0; run < swept.size(); ++run) {
-    const Job queued{.id = "", .state = "queued", .error_reason = {}};
-    if (!swept[run].empty() && jobs_.try_emplace(swept[run], queued).second)
-      next.cases.push_back(std::move(cases[run]));
-  }
-  swept_[index] = std::move(swept);
-  pending_.push_back(index);
-}
-
-void FitSampler::update_points() {
-  const std::vector<std::size_t> pending = std::exchange(pending_, {});
-  for (const std::size_t index : pending) update_point(index);
-}
-
-void FitSampler::update_point(std::size_t index) {
-  FitPointSummary& point = summary_.points[index];
-  bool waits = false;
-  for (std::size_t run = 0; run < swept_[index].size(); ++run) {
-    if (swept_[index][run].empty()) continue;
-    const Job& job = jobs_.at(swept_[index][run]);
-    point.job_ids[run] = job.id;
-    waits |= job.state == "queued" || job.state == "running";
-  }
-  if (waits) return pending_.push_back(index);
-  for (const std::string& swept : swept_[index]) {
-    if (swept.empty()) continue;
-    const Job& job = jobs_.at(swept);
-    cancelled_ |= job.state == "cancelled";
-    if (job.state == "succeeded") continue;
-    if (point.state != FitPointState::kSucceeded) return lose(index, job.error_reason.value_or(job.state));
-    summary_.remarks.push_back("A run that is held back has no prediction, as its job failed: " +
-                               job.error_reason.value_or(job.state) + ".");
-  }
-  if (point.state == FitPointState::kSucceeded) return;
-  const bool only_residuals = summary_.basis == FitBasis::kPointWise;
-  auto observation = observer_->observe(
-      point.point, point.job_ids,
-      only_residuals ? FitObserver::Wanted::kResiduals : FitObserver::Wanted::kFeaturesToo);
-  if (observation) take(index, std::move(*observation));
-  else lose(index, "no_value");
-}
-
-void FitSampler::lose(std::size_t index, std::string reason) {
-  summary_.points[index].state = FitPointState::kLost;
-  summary_.points[index].lost_reason = std::move(reason);
-}
-
-void FitSampler::take(std::size_t index, Observation observation) {
-  FitPointSummary& point = summary_.points[index];
-  point.state = FitPointState::kSucceeded;
-  features_.emplace(point.point, std::move(observation.features));
-  point.sum =
-      sum_of_squares(is_point_wise() ? observation.residuals : feature_residuals(features_.at(point.point)));
-  if (!is_point_wise()) return;
-  if (summary_.stage == FitStage::kDesign || summary_.stage == FitStage::kGlobal) {
-    if (!(*point.sum < least_sum_)) return;
-    least_sum_ = *point.sum;
-    residuals_.clear();
-  }
-  residuals_.insert_or_assign(point.point, std::move(observation.residuals));
-}
-
-std::vector<double> FitSampler::feature_residuals(const std::vector<double>& features) const {
-  std::vector<double> residuals;
-  for (std::size_t k = 0; k < features.size(); ++k)
-    residuals.push_back((features[k] - observer_->measured_features()[k]) / feature_scale_[k]);
-  return residuals;
-}
-
-std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& point) {
-  const std::size_t index = indices_.at(point);
-  if (is_point_wise()) {
-    if (summary_.points[index].state != FitPointState::kSucceeded) return std::nullopt;
-    const auto found = residuals_.find(point);
-    if (found == residuals_.end()) {
-      auto again = observer_->observe(point, summary_.points[index].job_ids, FitObserver::Wanted::kResiduals);
-      if (!again) return std::nullopt;
-      return std::move(again->residuals);
-    }
-    return found->second;
-  }
-  std::vector<double> mean(feature_scale_.size(), 0.0);
-  double count = 0.0;
-  for (const FitPoint& replicate : replicates_of(point)) {
-    const auto found = features_.find(replicate);
-    if (found == features_.end()) continue;
-    count += 1.0;
-    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += found->second[k];
-  }
-  if (count == 0.0) return std::nullopt;
-  for (double& value : mean) value /= count;
-  return feature_residuals(mean);
-}
-
-std::optional<double> FitSampler::sum_of(const FitPoint& point) {
-  if (is_point_wise()) return summary_.points[indices_.at(point)].sum;
-  const auto residuals = residuals_of(point);
-  return residuals ? std::optional(sum_of_squares(*residuals)) : std::nullopt;
-}
-
-void FitSampler::choose_best(const Points& among) {
-  std::optional<double> least;
-  for (const FitPoint& point : among) {
-    const auto sum = sum_of(point);
-    if (!sum || !std::isfinite(*sum) || (least && !(*sum < *least))) continue;
-    least = sum;
-    best_ = point;
-    summary_.best = indices_.at(point);
-  }
 }
 
 void FitSampler::summarise_signals() {

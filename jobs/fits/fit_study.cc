@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// What was used last, by a text.
+/// Cache of the values that were used last, by their keys.
 template <typename T>
 class RecentlyUsed {
  public:

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -77,21 +76,5 @@ struct LeastSquaresAnswer {
 /// @throws engine::InvalidInput if the start is not within the spans
 [[nodiscard]] LeastSquaresAnswer solve_least_squares(const LeastSquaresProblem& problem,
                                                      const Evaluations& evaluations);
-
-/// A least-squares problem with its evaluations.
-class LeastSquares {
- public:
-  explicit LeastSquares(LeastSquaresProblem problem) : problem_(std::move(problem)) {}
-
-  [[nodiscard]] LeastSquaresAnswer ask() const { return solve_least_squares(problem_, evaluations_); }
-  void tell(const FitPoint& point, std::vector<double> residuals) {
-    evaluations_.tell(point, std::move(residuals));
-  }
-  void tell_failed(const FitPoint& point) { evaluations_.tell_failed(point); }
-
- private:
-  LeastSquaresProblem problem_;
-  Evaluations evaluations_;
-};
 
 }  // namespace jobs

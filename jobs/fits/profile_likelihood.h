@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "jobs/fits/intervals.h"
@@ -53,21 +52,5 @@ struct ProfileAnswer {
 /// - S_best, which is linear in x_i for a linear model. Source: Bates & Watts (1988), Nonlinear Regression
 /// Analysis and Its Applications, section 6.1 (profile t).
 [[nodiscard]] ProfileAnswer profile_likelihood(const ProfileProblem& problem, const Evaluations& evaluations);
-
-/// A profile with its evaluations. Those of the fit may be told as well.
-class ProfileLikelihood {
- public:
-  explicit ProfileLikelihood(ProfileProblem problem) : problem_(std::move(problem)) {}
-
-  [[nodiscard]] ProfileAnswer ask() const { return profile_likelihood(problem_, evaluations_); }
-  void tell(const FitPoint& point, std::vector<double> residuals) {
-    evaluations_.tell(point, std::move(residuals));
-  }
-  void tell_failed(const FitPoint& point) { evaluations_.tell_failed(point); }
-
- private:
-  ProfileProblem problem_;
-  Evaluations evaluations_;
-};
 
 }  // namespace jobs

@@ -11,6 +11,7 @@
 #include "jobs/requests/axis.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
+#include "jobs/requests/request_parser.h"
 
 namespace jobs {
 namespace {
@@ -25,13 +26,12 @@ constexpr std::array<std::string_view, 7> kCommonKeys{"name",  "parameters", "sw
 constexpr double kSteps = 1e6;
 
 /// Reader of one request; a member function a part of it.
-class OptimisationParser {
+class OptimisationParser : private RequestParser {
  public:
   OptimisationParser(const ordered_json& request, std::size_t max_jobs)
-      : request_(request), max_jobs_(max_jobs) {}
+      : RequestParser(request), max_jobs_(max_jobs) {}
 
   OptimisationRequest parse() {
-    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
     check_keys();
     read_common();
     read_variables();
@@ -39,44 +39,20 @@ class OptimisationParser {
     read_bounds();
     read_numbers();
     check_size();
-    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    throw_if_faulty();
     return std::move(made_);
   }
 
  private:
-  void fault(std::string pointer, std::string detail) {
-    faults_.push_back({std::move(pointer), std::move(detail)});
-  }
-
-  /// Adds a fault unless the text is empty. @returns whether it is
-  bool is_right(const std::string& pointer, std::string detail) {
-    const bool right = detail.empty();
-    if (!right) fault(pointer, std::move(detail));
-    return right;
-  }
-
-  template <std::size_t n>
-  void check_keys_of(const json& given, const std::string& pointer,
-                     const std::array<std::string_view, n>& keys) {
-    for (const auto& [key, value] : given.items()) {
-      if (std::ranges::find(keys, key) == keys.end())
-        fault(pointer + pointer_token(key), describe_unknown_key(key, keys));
-    }
-  }
-
   void check_keys() { check_keys_of(json(request_), "", kOptimisationRequestKeys); }
 
   void read_common() {
-    ordered_json common = ordered_json::object();
-    for (const std::string_view key : kCommonKeys) {
-      if (request_.contains(key)) common[std::string(key)] = request_.at(key);
-    }
     try {
-      made_.common = parse_sweep_request(common, max_jobs_);
+      made_.common = parse_sweep_request(parts_of(kCommonKeys), max_jobs_);
       for (const engine::QuantityInfo& metric : metric_table(made_.common.parameters))
         metrics_.push_back(metric.key);
     } catch (const InvalidRequest& invalid) {
-      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
+      add_faults(invalid);
     }
   }
 
@@ -174,13 +150,6 @@ class OptimisationParser {
     made_.bounds.push_back(std::move(bound));
   }
 
-  std::uint64_t read_integer(const char* key, const Range& range, std::uint64_t otherwise) {
-    if (!request_.contains(key)) return otherwise;
-    const json given = request_.at(key);
-    return is_right(std::string("/") + key, describe_integer_fault(range, given)) ? given.get<std::uint64_t>()
-                                                                                  : otherwise;
-  }
-
   void read_numbers() {
     const std::size_t n = std::max<std::size_t>(1, made_.variables.size());
     made_.starts = read_integer("starts", kStartsRange, made_.method == PopulationMethod::kCmaEs ? 2 : 1);
@@ -213,11 +182,9 @@ class OptimisationParser {
                            std::to_string(max_jobs_) + " are allowed");
   }
 
-  const ordered_json& request_;
   std::size_t max_jobs_;
   OptimisationRequest made_;
   std::vector<std::string> metrics_;  ///< of the linkage; empty if it has faults
-  std::vector<Fault> faults_;
 };
 
 }  // namespace

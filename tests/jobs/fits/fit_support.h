@@ -5,11 +5,14 @@
 #include <functional>
 #include <map>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "jobs/fits/evaluations.h"
 #include "jobs/fits/least_squares.h"
+#include "jobs/fits/profile_likelihood.h"
 
 namespace jobs_tests {
 
@@ -34,6 +37,25 @@ auto run_asker(Asker& asker, const Residuals& residuals,
   ADD_FAILURE() << "no end";
   return *decltype(asker.ask().result){std::in_place};
 }
+
+/// A problem with its evaluations, which are told one by one.
+template <typename Problem, auto kSolve>
+class Asker {
+ public:
+  explicit Asker(Problem problem) : problem_(std::move(problem)) {}
+
+  [[nodiscard]] auto ask() const { return kSolve(problem_, evaluations_); }
+  void tell(const jobs::FitPoint& point, std::vector<double> residuals) {
+    evaluations_.tell(point, std::move(residuals));
+  }
+  void tell_failed(const jobs::FitPoint& point) { evaluations_.tell_failed(point); }
+
+ private:
+  Problem problem_;
+  jobs::Evaluations evaluations_;
+};
+using LeastSquares = Asker<jobs::LeastSquaresProblem, jobs::solve_least_squares>;
+using ProfileLikelihood = Asker<jobs::ProfileProblem, jobs::profile_likelihood>;
 
 inline std::vector<double> rosenbrock(const jobs::FitPoint& x) {
   return {10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]};

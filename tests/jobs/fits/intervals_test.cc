@@ -29,7 +29,7 @@ double calc_coverage(double correlation, jobs::ResidualNoise noise) {
     std::vector<double> measured = oscillation(kTrue, 300);
     const auto errors = make_noise(measured.size(), correlation, seed);
     for (std::size_t k = 0; k < measured.size(); ++k) measured[k] += 0.1 * errors[k];
-    jobs::LeastSquares fit(oscillation_problem());
+    LeastSquares fit(oscillation_problem());
     const auto result = run_asker(fit, [&](const jobs::FitPoint& x) {
       auto y = oscillation(x, measured.size());
       for (std::size_t k = 0; k < y.size(); ++k) y[k] -= measured[k];
@@ -133,13 +133,13 @@ struct Profiled {
 };
 
 Profiled profile(const jobs::LeastSquaresProblem& problem, const Residuals& residuals) {
-  jobs::LeastSquares fit(problem);
+  LeastSquares fit(problem);
   jobs::ProfileProblem wanted{
       .spans = problem.spans, .best = run_asker(fit, residuals), .intervals = {}, .refit = {}};
   wanted.intervals =
       jobs::calc_intervals(wanted.best.jacobian, wanted.best.residuals, problem.spans, wanted.best.x,
                            {.noise = jobs::ResidualNoise::kWhite, .blocks = {}});
-  jobs::ProfileLikelihood asker(wanted);
+  ProfileLikelihood asker(wanted);
   return {wanted.intervals, run_asker(asker, residuals)};
 }
 

@@ -14,7 +14,7 @@ namespace {
 TEST(LeastSquares, FindsRosenbrocksMinimumWithoutALogLine) {
   auto problem = rosenbrock_problem();
   problem.options.differences = jobs::Differences::kCentral;
-  jobs::LeastSquares fit(problem);
+  LeastSquares fit(problem);
   testing::internal::CaptureStderr();
   const auto result = run_asker(fit, rosenbrock);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -28,10 +28,10 @@ TEST(LeastSquares, FindsRosenbrocksMinimumWithoutALogLine) {
 
 TEST(LeastSquares, GivesTheSameAnswersInReplay) {
   std::map<jobs::FitPoint, std::vector<double>> told;
-  jobs::LeastSquares fit(rosenbrock_problem());
+  LeastSquares fit(rosenbrock_problem());
   const auto result = run_asker(fit, rosenbrock, &told);
   EXPECT_EQ(told.size(), result.evaluations);
-  jobs::LeastSquares again(rosenbrock_problem());
+  LeastSquares again(rosenbrock_problem());
   for (auto at = told.rbegin(); at != told.rend(); ++at) again.tell(at->first, at->second);
   const auto replayed = again.ask().result;
   ASSERT_TRUE(replayed);
@@ -44,10 +44,10 @@ TEST(LeastSquares, GivesTheSameAnswersInReplay) {
 // A crash after any evaluation: nothing is asked that the whole fit did not ask.
 TEST(LeastSquares, GoesOnFromWhatHasBeenTold) {
   std::map<jobs::FitPoint, std::vector<double>> all;
-  jobs::LeastSquares fit(rosenbrock_problem());
+  LeastSquares fit(rosenbrock_problem());
   const auto result = run_asker(fit, rosenbrock, &all);
   for (const std::size_t kept : {1U, 7U, 20U}) {
-    jobs::LeastSquares resumed(rosenbrock_problem());
+    LeastSquares resumed(rosenbrock_problem());
     std::map<jobs::FitPoint, std::vector<double>> told;
     for (const auto& [point, residuals] : all) {
       if (told.size() == kept) break;
@@ -62,7 +62,7 @@ TEST(LeastSquares, GoesOnFromWhatHasBeenTold) {
 TEST(LeastSquares, EndsAtAnActiveBound) {
   auto problem = rosenbrock_problem();
   problem.spans[0].to = 0.5;
-  jobs::LeastSquares fit(problem);
+  LeastSquares fit(problem);
   const auto result = run_asker(fit, rosenbrock);
   EXPECT_EQ(result.end, jobs::FitEnd::kConverged) << result.message;
   EXPECT_EQ(result.x[0], 0.5);
@@ -75,7 +75,7 @@ TEST(LeastSquares, StepsAroundAFailingRegion) {
     if (x[0] > -0.5 && x[0] < 0.5 && x[1] < -0.2) return ++failed, std::vector<double>{};
     return rosenbrock(x);
   };
-  jobs::LeastSquares fit(rosenbrock_problem());
+  LeastSquares fit(rosenbrock_problem());
   const auto result = run_asker(fit, partly);
   EXPECT_NEAR(result.x[0], 1.0, 1e-3) << result.message << failed;
 }
@@ -85,7 +85,7 @@ TEST(LeastSquares, SaysThatItEndedBesideFailures) {
   const Residuals partly = [&](const jobs::FitPoint& x) {
     return x[0] > 0.3 ? (++failed, std::vector<double>{}) : std::vector<double>{x[0] - 0.6, x[1] - 0.5};
   };
-  jobs::LeastSquares fit(
+  LeastSquares fit(
       {.spans = {{0.0, 1.0, false}, {0.0, 1.0, false}}, .start = {0.1, 0.1}, .fixed = {}, .options = {}});
   const auto result = run_asker(fit, partly);
   EXPECT_EQ(result.end, jobs::FitEnd::kBesideFailures) << result.message;
@@ -94,7 +94,7 @@ TEST(LeastSquares, SaysThatItEndedBesideFailures) {
 }
 
 TEST(LeastSquares, SaysThatItsStartFailed) {
-  jobs::LeastSquares fit(rosenbrock_problem());
+  LeastSquares fit(rosenbrock_problem());
   const auto result = run_asker(fit, [](const jobs::FitPoint&) { return std::vector<double>{}; });
   EXPECT_EQ(result.end, jobs::FitEnd::kStartFailed);
   EXPECT_FALSE(result.message.empty());
@@ -103,14 +103,14 @@ TEST(LeastSquares, SaysThatItsStartFailed) {
 TEST(LeastSquares, KeepsToItsLargestNumberOfEvaluations) {
   auto problem = rosenbrock_problem();
   problem.options.max_evaluations = 12;
-  jobs::LeastSquares fit(problem);
+  LeastSquares fit(problem);
   const auto result = run_asker(fit, rosenbrock);
   EXPECT_EQ(result.end, jobs::FitEnd::kMostEvaluations);
   EXPECT_LE(result.evaluations, 12U + 2U);
 }
 
 TEST(LeastSquares, FitsOnALogarithmicScaleBesideAFixedParameter) {
-  jobs::LeastSquares fit(
+  LeastSquares fit(
       {.spans = {{1e-3, 1e3, true}, {0.0, 2.0, false}}, .start = {1.0, 0.7}, .fixed = {1}, .options = {}});
   const auto result = run_asker(fit, [](const jobs::FitPoint& x) {
     return std::vector<double>{std::log(x[0] / 40.0), x[1] - 1.0};
@@ -123,7 +123,7 @@ TEST(LeastSquares, FitsOnALogarithmicScaleBesideAFixedParameter) {
 TEST(LeastSquares, RefusesAStartBeyondItsBounds) {
   auto problem = rosenbrock_problem();
   problem.start[1] = 4.0;
-  EXPECT_THROW(static_cast<void>(jobs::LeastSquares(problem).ask()), engine::InvalidInput);
+  EXPECT_THROW(static_cast<void>(LeastSquares(problem).ask()), engine::InvalidInput);
 }
 
 }  // namespace
