@@ -79,7 +79,7 @@ def main():
     dice = random.Random(options.seed)
     folder = temporary_folder()
     tables = undisturbed_tables(options.program, folder)
-    limits = (80, 150, 280, 310, 340, 400, 500)
+    limits = (50, 70, 80, 90, 150, 340, 400, 450, 500, 600)
     started = [limit for limit in limits if limit_memory(options.program, folder, tables, dice, limit)]
     check(started and len(started) < len(limits), f"starts with {started} of {limits} MiB")
     print(f"address space of {limits} MiB: serves with {started}, says why not with the others; nothing lost")
