@@ -24,10 +24,12 @@ std::string describe_source(std::string_view source) {
   if (source.empty()) return "every linkage";
   const std::size_t dot = source.find('.');
   const std::string_view kind = source.substr(0, dot);
-  return std::string("the ") + (kind == "bodies" ? "body" : kind == "springs" ? "spring"
-                                                          : kind == "loads"   ? "load"
-                                                                              : "joint") + " " +
-         std::string(source.substr(dot + 1));
+  const char* const what = kind == "bodies"           ? "body"
+                           : kind == "springs"        ? "spring"
+                           : kind == "loads"          ? "load"
+                           : kind == "accelerometers" ? "accelerometer"
+                                                      : "joint";
+  return std::string("the ") + what + " " + std::string(source.substr(dot + 1));
 }
 
 /// @param what  "channel" or "metric"  @param sources  one a quantity
@@ -70,6 +72,10 @@ LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage&
   for (std::size_t k = 0; k < linkage.loads.size(); ++k) {
     source_ = "loads." + linkage.loads[k].name;
     add_body_load(linkage.loads[k], k);
+  }
+  for (std::size_t k = 0; k < linkage.accelerometers.size(); ++k) {
+    source_ = "accelerometers." + linkage.accelerometers[k].name;
+    add_accelerometer(linkage, k);
   }
   source_.clear();
   add_energy_channels();
@@ -301,6 +307,26 @@ void LinkageQuantities::add_body_load(const LinkageLoad& load, std::size_t index
   add_channel(load.name + (is_force ? "_n" : "_n_m"),
               is_force ? "Force of the load, by its law" : "Moment of the load, by its law",
               [behind](const Evaluation& at) { return at.applied_force[behind]; });
+}
+
+void LinkageQuantities::add_accelerometer(const Linkage& linkage, std::size_t index) {
+  const LinkageAccelerometer& one = linkage.accelerometers[index];
+  const BuiltAccelerometer& place = built_.accelerometers[index];
+  const Reading acceleration = [this, &place, ground = linkage.ground_acceleration,
+                                gravity = linkage.gravity_W, follows_body = one.follows_body,
+                                shows_gravity = one.shows_gravity](const Evaluation& at) {
+    const FrameMotion& body = reactions_.motion(place.frame);
+    const Eigen::Vector3d arm = body.R * place.at;
+    Eigen::Vector3d a = body.vd + body.wd.cross(arm) + body.w.cross(body.w.cross(arm));
+    if (!shows_gravity) a += gravity;
+    for (int axis = 0; axis < 3; ++axis)
+      if (const auto& law = ground[static_cast<std::size_t>(axis)]) a[axis] += calc_signal(*law, at.t).value;
+    return a.dot(follows_body ? Eigen::Vector3d(body.R * place.direction) : place.direction);
+  };
+  add_channel(one.name + "_accelerometer_m_s2", "Acceleration that the accelerometer shows", acceleration);
+  add_load("peak_" + one.name + "_accelerometer_m_s2",
+           "Largest magnitude of the acceleration that the accelerometer shows in the whole run", 1.0,
+           acceleration);
 }
 
 void LinkageQuantities::add_energy_channels() {

@@ -54,6 +54,7 @@ class LinkageQuantities {
   void add_contact_time(const std::string& key, const char* help, Measured::Contact contact);
   void add_spring(const LinkageSpring& spring, std::size_t index);
   void add_body_load(const LinkageLoad& load, std::size_t index);
+  void add_accelerometer(const Linkage& linkage, std::size_t index);
   void add_energy_channels();
   void add_run_metrics();
   void add_channel(std::string key, std::string help, Reading read);

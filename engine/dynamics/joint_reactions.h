@@ -17,6 +17,11 @@ class JointReactions {
 
   void calc(const Evaluation& at);
 
+  /// After calc(): motion of a coordinate's frame, with its accelerations.
+  [[nodiscard]] const FrameMotion& motion(FrameIndex frame) const {
+    return frames_[static_cast<std::size_t>(frame)];
+  }
+
   /// After calc(): about the origin of the joint's last frame, in W. With it come the joint's drives and
   /// springs.
   [[nodiscard]] const Wrench& of(FrameIndex last_frame) const {

@@ -58,6 +58,7 @@ class LinkageBuilder {
         add_cut(linkage_.joints[k], built_.joints[k]);
     for (const LinkageSpring& spring : linkage_.springs) add_spring(spring);
     for (const LinkageLoad& load : linkage_.loads) add_load(load);
+    for (const LinkageAccelerometer& one : linkage_.accelerometers) add_accelerometer(one);
     add_inertial_forces();
     Mechanism& m = built_.mechanism;
     add_actuations(m);
@@ -244,6 +245,12 @@ class LinkageBuilder {
     const Eigen::Matrix3d R = load.follows_body ? at.R : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     built_.mechanism.body_loads.push_back(
         {frame, at.p, R * load.force, R * load.moment, load.follows_body, load.law});
+  }
+
+  void add_accelerometer(const LinkageAccelerometer& one) {
+    const auto [frame, at] = locate(one.body, {.p = one.at});
+    const Eigen::Matrix3d R = one.follows_body ? at.R : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    built_.accelerometers.push_back({.frame = frame, .at = at.p, .direction = R * one.direction});
   }
 
   void add_inertial_forces() {

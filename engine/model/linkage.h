@@ -94,6 +94,16 @@ struct LinkageLoad {
   Signal law;
 };
 
+/// An accelerometer on a body: the acceleration of a point, less that of gravity, along a direction.
+struct LinkageAccelerometer {
+  std::string name;
+  std::string body;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();           ///< in the body's frame, [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();   ///< of unit length
+  bool follows_body = true;     ///< whether the direction is one of the body's frame; else of the ground's
+  bool shows_gravity = true;    ///< false: the acceleration of the point itself
+};
+
 inline constexpr const char* kGroundName = "ground";
 
 /// A linkage as data: any number of bodies in chains or trees from the ground, closed by any number of cut
@@ -104,6 +114,7 @@ struct Linkage {
       joints;  ///< in the order in which bodies are placed, each behind the one that carries its first body
   std::vector<LinkageSpring> springs = {};
   std::vector<LinkageLoad> loads = {};
+  std::vector<LinkageAccelerometer> accelerometers = {};
   /// Acceleration of the ground along x, y and z, [m/s^2]. Its frame moves with it: each body gets the
   /// inertial force -m a.
   std::array<std::optional<Signal>, 3> ground_acceleration = {};
@@ -142,10 +153,18 @@ struct BuiltJoint {
   int cut = -1;
 };
 
+/// Where an accelerometer sits.
+struct BuiltAccelerometer {
+  FrameIndex frame = kGround;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();         ///< in `frame`, [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< in `frame`; in W if it does not follow the body
+};
+
 struct BuiltLinkage {
   Mechanism mechanism;                  ///< its springs in the order of Linkage::springs
   std::vector<BodyFrames> bodies;       ///< in the order of Linkage::bodies
   std::vector<BuiltJoint> joints;       ///< in the order of Linkage::joints
+  std::vector<BuiltAccelerometer> accelerometers = {};  ///< in the order of Linkage::accelerometers
 };
 
 /// Builds the mechanism. Bodies and joints must fit together: every body but the ground is the second one of

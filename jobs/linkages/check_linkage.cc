@@ -28,6 +28,7 @@ constexpr std::size_t kMostBodies = 200;
 constexpr std::size_t kMostJoints = 400;
 constexpr std::size_t kMostSprings = 400;
 constexpr std::size_t kMostLoads = 400;
+constexpr std::size_t kMostAccelerometers = 400;
 constexpr std::size_t kLongestKey = 32;
 
 class LinkageChecker {
@@ -42,6 +43,7 @@ class LinkageChecker {
     check_joints();
     if (given_.contains("springs")) check_springs();
     if (given_.contains("loads")) check_loads();
+    if (given_.contains("accelerometers")) check_accelerometers();
     if (given_.contains("ground_acceleration_m_s2"))
       check_ground_acceleration(given_.at("ground_acceleration_m_s2"), "/linkage/ground_acceleration_m_s2",
                                 faults_);
@@ -125,11 +127,28 @@ class LinkageChecker {
     for (const auto& [name, load] : given_.at("loads").items()) {
       const std::string pointer = "/linkage/loads" + pointer_token(name);
       check_body_load(load, pointer, faults_);
-      if (is_unknown_body(load, "body"))
-        fault(pointer + "/body", "there is no body " + load.at("body").get<std::string>());
-      else if (load.value("body", json()) == engine::kGroundName)
-        fault(pointer + "/body", "must be a body: the ground does not yield");
+      check_moving_body(load, pointer, "the ground does not yield");
     }
+  }
+
+  void check_accelerometers() {
+    if (!check_names("accelerometers", kMostAccelerometers)) return;
+    for (const auto& [name, one] : given_.at("accelerometers").items()) {
+      const std::string pointer = "/linkage/accelerometers" + pointer_token(name);
+      const std::size_t before = faults_.size();
+      check_fields(one, accelerometer_fields(), pointer, faults_);
+      if (faults_.size() == before && one.at("direction") == json{0, 0, 0})
+        fault(pointer + "/direction", "must not be 0");
+      check_moving_body(one, pointer, "the ground is at rest");
+    }
+  }
+
+  /// @param reason  why the ground will not do
+  void check_moving_body(const json& object, const std::string& pointer, const std::string& reason) {
+    if (is_unknown_body(object, "body"))
+      fault(pointer + "/body", "there is no body " + object.at("body").get<std::string>());
+    else if (object.value("body", json()) == engine::kGroundName)
+      fault(pointer + "/body", "must be a body: " + reason);
   }
 
   void check_spring(const std::string& name, const json& spring, const std::string& pointer) {

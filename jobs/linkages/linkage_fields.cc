@@ -123,6 +123,9 @@ const LinkageFields& linkage_fields() {
       {.key = "springs", .kind = FieldKind::kObject,
        .help = "Springs and dampers between points of two bodies, by their names"},
       {.key = "loads", .kind = FieldKind::kObject, .help = "Forces and moments on bodies, by their names"},
+      {.key = "accelerometers",
+       .kind = FieldKind::kObject,
+       .help = "Accelerometers on bodies, by their names"},
       {.key = "ground_acceleration_m_s2", .kind = FieldKind::kObject,
        .help = "Acceleration of the ground along x, y and z, as of a shaker or a vehicle; positions are "
                "seen from the ground"},
@@ -267,6 +270,21 @@ const LinkageFields& spring_fields() {
        .help = "Of the damper, along the spring; without it 0"},
       {.key = "free_length_m", .range = between(0, 1000), .unit = "m",
        .help = "At which the spring is unloaded; without it the distance of its ends at t = 0"},
+  };
+  return fields;
+}
+
+const LinkageFields& accelerometer_fields() {
+  static const LinkageFields fields{
+      {.key = "body", .kind = FieldKind::kBody, .help = "The body on which it sits", .required = true},
+      {.key = "at_m", .kind = FieldKind::kPoint, .range = kLength, .unit = "m",
+       .help = "Where it sits, in the body's frame; without it 0"},
+      {.key = "direction", .kind = FieldKind::kPoint, .range = between(-1e6, 1e6),
+       .help = "Along which it measures, of any length", .required = true},
+      {.key = "follows_body", .kind = FieldKind::kBoolean,
+       .help = "Whether the direction turns with the body, the default; else it is the ground's"},
+      {.key = "shows_gravity", .kind = FieldKind::kBoolean,
+       .help = "Whether it shows the acceleration less that of gravity, as a sensor does, the default"},
   };
   return fields;
 }

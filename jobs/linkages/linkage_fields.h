@@ -52,6 +52,7 @@ using LinkageFields = std::vector<LinkageField>;
 [[nodiscard]] const LinkageFields& beam_fields();
 [[nodiscard]] const LinkageFields& joint_fields();
 [[nodiscard]] const LinkageFields& spring_fields();
+[[nodiscard]] const LinkageFields& accelerometer_fields();
 [[nodiscard]] LinkageFields freedom_fields(engine::Motion motion);
 [[nodiscard]] LinkageFields drive_fields(engine::Motion motion, std::string_view law);
 

@@ -206,6 +206,8 @@ json linkage_schema() {
       schema_of_fields(spring_fields()), "Springs and dampers between points of two bodies, by their names");
   described["properties"]["loads"] =
       named(schema_of_body_load(), "Forces and moments on bodies, by their names");
+  described["properties"]["accelerometers"] =
+      named(schema_of_fields(accelerometer_fields()), "Accelerometers on bodies, by their names");
   json& ground = described["properties"]["ground_acceleration_m_s2"];
   ground = schema_of_ground_acceleration(ground);
   return {{"description", "The linkage: \"rpsup\", or a description of any other"}, {"default", kRpsupName},

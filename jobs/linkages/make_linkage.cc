@@ -80,6 +80,14 @@ class LinkageMaker {
     if (given_.contains("loads"))
       for (const auto& [name, load] : given_.at("loads").items())
         linkage.loads.push_back(read_body_load(name, load));
+    if (given_.contains("accelerometers"))
+      for (const auto& [name, one] : given_.at("accelerometers").items())
+        linkage.accelerometers.push_back({.name = name,
+                                          .body = one.at("body").get<std::string>(),
+                                          .at = point_of(one, "at_m"),
+                                          .direction = point_of(one, "direction").stableNormalized(),
+                                          .follows_body = one.value("follows_body", true),
+                                          .shows_gravity = one.value("shows_gravity", true)});
     if (given_.contains("ground_acceleration_m_s2"))
       for (const auto& [axis, law] : given_.at("ground_acceleration_m_s2").items())
         linkage.ground_acceleration[static_cast<std::size_t>(axis[0] - 'x')] = read_acceleration(law);

@@ -87,6 +87,7 @@ engine::LinkageTables make_sample_tables() {
   const Eigen::Vector3d along = Eigen::Vector3d::UnitX();
   linkage.loads = {{.name = "{load}", .body = "other", .force = along, .law = {}},
                    {.name = "{load}", .body = "other", .moment = along, .law = {}}};
+  linkage.accelerometers = {{.name = "{accelerometer}", .body = "other"}};
   return engine::linkage_tables(linkage);
 }
 

@@ -226,6 +226,40 @@ TEST(BodyLoad, AndTheGroundsAccelerationAreRead) {
             std::vector<std::string>{"/linkage/ground_acceleration_m_s2/w"});
 }
 
+const RefusedLoad kRefusedAccelerometers[] = {
+    {"no_body", R"({"direction": [1, 0, 0]})", "/body"},
+    {"on_no_body", R"({"body": "slide", "direction": [1, 0, 0]})", "/body"},
+    {"on_the_ground", R"({"body": "ground", "direction": [1, 0, 0]})", "/body"},
+    {"no_direction", R"({"body": "slider"})", "/direction"},
+    {"direction_of_nothing", R"({"body": "slider", "direction": [0, 0.0, -0.0]})", "/direction"},
+    {"two_directions", R"({"body": "slider", "direction": [[1, 0, 0], [0, 1, 0]]})", "/direction"},
+    {"unknown_key", R"({"body": "slider", "direction": [1, 0, 0], "gain": 2})", "/gain"},
+    {"no_flag", R"({"body": "slider", "direction": [1, 0, 0], "shows_gravity": 1})", "/shows_gravity"},
+};
+
+class RefusedAccelerometer : public testing::TestWithParam<RefusedLoad> {};
+
+TEST_P(RefusedAccelerometer, IsNamedWithItsPlace) {
+  json given = example("motor_press");
+  given["linkage"]["accelerometers"] = {{"l", json_of(GetParam().load)}};
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)jobs::complete_parameters(given, ""); })),
+            std::vector<std::string>{std::string("/linkage/accelerometers/l") + GetParam().pointer});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RefusedAccelerometer, testing::ValuesIn(kRefusedAccelerometers),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Accelerometer, IsRead) {
+  json given = example("motor_press");
+  given["linkage"]["accelerometers"] = {{"imu", {{"body", "slider"}, {"direction", {0, 3, 4}}, {"at_m", {0, 0, 0.1}}}}};
+  const engine::Linkage linkage = *jobs::to_job_spec(jobs::complete_parameters(given, "")).linkage;
+  ASSERT_EQ(linkage.accelerometers.size(), 1U);
+  EXPECT_TRUE(linkage.accelerometers[0].direction.isApprox(Eigen::Vector3d(0.0, 0.6, 0.8)));
+  EXPECT_EQ(linkage.accelerometers[0].at.z(), 0.1);
+  EXPECT_TRUE(linkage.accelerometers[0].follows_body);
+  EXPECT_TRUE(linkage.accelerometers[0].shows_gravity);
+}
+
 TEST(Friction, OfAFreedomIsRead) {
   json given = example("motor_press");
   given["linkage"]["joints"]["guide"]["friction"] = {{"normal_force_n", 20}, {"friction_kinetic", 0.25}};
