@@ -40,6 +40,11 @@ json profile_json(const FitSummary& summary, std::size_t i) {
   return {{"low", profile_end_json(interval.low)}, {"high", profile_end_json(interval.high)}};
 }
 
+json range_json(const FitSummary& summary, std::size_t i) {
+  if (summary.ranges.empty()) return nullptr;
+  return {{"low", summary.ranges[i].low}, {"high", summary.ranges[i].high}};
+}
+
 bool is_identified(const FitSummary& summary, std::size_t i) {
   if (!summary.intervals || !std::isfinite(summary.intervals->deviations[static_cast<Eigen::Index>(i)]))
     return false;
@@ -56,6 +61,7 @@ json parameters_json(const FitProblem& problem, const FitSummary& summary) {
              {"value", summary.best ? json(summary.points[*summary.best].point[i]) : json()},
              {"linearised", linear_json(summary, i)},
              {"profile", profile_json(summary, i)},
+             {"range", range_json(summary, i)},
              {"identified", summary.intervals ? json(is_identified(summary, i)) : json()},
              {"from", parameter.span.from},
              {"to", parameter.span.to}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -28,6 +29,7 @@ constexpr double kHighestOverRate = 0.4;  ///< of the sampling rate; half of it 
 constexpr double kWhitePart = 0.9;
 constexpr double kExcessKurtosis = 0.5;
 constexpr std::size_t kFewestForTest = 50;
+constexpr double kLeastDeviation = 1e-6;
 
 double rms_of(std::span<const double> y) {
   double squares = 0.0;
@@ -146,6 +148,37 @@ bool FitObserver::is_noise(const std::vector<double>& residuals) const {
     if (model.innovation < kWhitePart * model.variance || excess_kurtosis(block) > allowed) return false;
   }
   return true;
+}
+
+std::vector<double> FitObserver::calc_deviations(const std::vector<double>& residuals) const {
+  std::vector<double> deviations;
+  std::size_t first = 0;
+  for (const FitSignal& signal : problem_->signals) {
+    const std::size_t count = signal.compared.t.size();
+    const double rms = rms_of(std::span(residuals).subspan(first, count));
+    const double noise = signal.noise / *signal.measured.sigma;
+    deviations.push_back(count == 0 ? 1.0 : std::max({rms, noise, kLeastDeviation}));
+    first += count;
+  }
+  return deviations;
+}
+
+double FitObserver::calc_loss(const std::vector<double>& deviations) const {
+  double loss = 0.0;
+  for (std::size_t k = 0; k < deviations.size(); ++k) {
+    const FitSignal& signal = problem_->signals[k];
+    const double count = signal.weight * signal.weight * static_cast<double>(signal.compared.t.size());
+    loss += count * std::log(deviations[k]);
+  }
+  return loss;
+}
+
+std::vector<double> FitObserver::scale_signals(std::vector<double> residuals,
+                                               const std::vector<double>& factors) const {
+  auto next = residuals.begin();
+  for (std::size_t k = 0; k < problem_->signals.size(); ++k)
+    for (std::size_t left = problem_->signals[k].compared.t.size(); left > 0; --left) *next++ *= factors[k];
+  return residuals;
 }
 
 double FitObserver::misfit(const std::vector<double>& residuals) const {

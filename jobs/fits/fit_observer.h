@@ -52,6 +52,15 @@ class FitObserver {
   [[nodiscard]] bool is_noise(const std::vector<double>& residuals) const;
   /// Part of the sum of squares beyond that of the noise.
   [[nodiscard]] double misfit(const std::vector<double>& residuals) const;
+  /// Deviation of each signal: RMS of its residuals, or their noise if the RMS is less. 1: no sample of it is
+  /// compared.
+  [[nodiscard]] std::vector<double> calc_deviations(const std::vector<double>& residuals) const;
+  /// Negative logarithm of the likelihood if the noise of each signal is unknown. Signals that the model
+  /// reproduces count for more than those that it does not: a sum of squares weighs them the other way round.
+  [[nodiscard]] double calc_loss(const std::vector<double>& deviations) const;
+  /// Residuals of each signal times its factor.
+  [[nodiscard]] std::vector<double> scale_signals(std::vector<double> residuals,
+                                                  const std::vector<double>& factors) const;
   [[nodiscard]] const std::vector<double>& measured_features() const { return measured_features_; }
   [[nodiscard]] const std::vector<std::string>& names_of_features() const { return feature_names_; }
 

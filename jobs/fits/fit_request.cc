@@ -508,7 +508,8 @@ class FitParser : private RequestParser {
     for (const std::size_t k : fitted) samples.push_back(signal.measured.y[k]);
     if (options.contains("noise")) signal.noise = sigma;
     else if (samples.size() > kFewestForNoise) signal.noise = estimate_noise(samples);
-    signal.measured.sigma = sigma / options.value("weight", 1.0);
+    signal.weight = options.value("weight", 1.0);
+    signal.measured.sigma = sigma / signal.weight;
     if (!std::isnormal(*signal.measured.sigma))
       fault(pointer, "has samples, a noise or a weight whose squares are no numbers");
   }

@@ -11,6 +11,7 @@
 
 #include "jobs/fits/features.h"
 #include "jobs/fits/fit_cases.h"
+#include "jobs/fits/observation.h"
 #include "jobs/parameters/unit_scale.h"
 #include "jobs/requests/expand.h"
 #include "jobs/statistics/unit_points.h"
@@ -27,8 +28,8 @@ constexpr std::size_t kFewestDesignPoints = 20;
 constexpr std::size_t kDivergenceReplicates = 2;
 constexpr std::size_t kScatterReplicates = 8;
 /// Part of the budget that is spent before the profile likelihood.
-constexpr double kGlobalShare = 0.7;
-constexpr double kSearchShare = 0.25;  ///< of one population search
+constexpr double kGlobalShare = 0.9;
+constexpr double kSearchShare = 0.12;  ///< of one population search
 /// Steps of the differences of features, which scatter.
 constexpr double kFeatureStep = 0.05;
 constexpr std::size_t kFeatureIterations = 6;
@@ -41,7 +42,13 @@ constexpr double kFirstFeatureScale = 0.1;
 constexpr std::size_t kMostRestarts = 2;
 constexpr double kFailedFitness = 1e200;
 /// Population searches, one after the other as long as residuals are no noise.
-constexpr std::size_t kMostSearches = 4;
+constexpr std::size_t kMostSearches = 8;
+/// Scans: points of all parameters together, and values of each.
+constexpr std::size_t kScanPoints = 160;
+constexpr std::size_t kMostScanValues = 32;
+constexpr std::size_t kFewestScanValues = 8;
+/// Gain, as part of the number of samples, after which least squares begin anew.
+constexpr double kLeastGain = 0.01;
 /// Least size of the box of a search, as part of a span.
 constexpr double kLeastBox = 1e-3;
 
@@ -131,6 +138,8 @@ FitSampler::Points FitSampler::run_stage() {
       return run_global();
     case FitStage::kLocal:
       return run_local();
+    case FitStage::kScan:
+      return run_scan();
     case FitStage::kProfile:
       return run_profile();
     case FitStage::kPrediction:
@@ -261,7 +270,7 @@ FitSampler::Points FitSampler::run_global() {
         population_->ask([this](const UnitPoint& parts) -> std::optional<std::vector<double>> {
           const FitPoint point = point_in_box(parts);
           if (!missing_of(replicates_of(point)).empty()) return std::nullopt;
-          return std::vector<double>{sum_of(point).value_or(kFailedFitness)};
+          return std::vector<double>{loss_of(point).value_or(kFailedFitness)};
         });
     if (unknown.empty() || summary_.points.size() >= search_limit_) break;
     Points missing;
@@ -281,12 +290,21 @@ FitSampler::Points FitSampler::run_global() {
   return {};
 }
 
+/// Whether the best point is enough better than an earlier one to search on from it.
+bool FitSampler::gains_since(const FitPoint& earlier) {
+  const double gain = loss_of(earlier).value() - loss_of(best_).value();
+  return gain > kLeastGain * static_cast<double>(jacobian_.rows()) && summary_.points.size() < global_limit_;
+}
+
 void FitSampler::begin_local(const FitPoint& start, std::size_t step) {
+  if (step == 0) pass_start_ = start;
   summary_.stage = FitStage::kLocal;
   local_start_ = start;
   step_ = step;
   evaluations_ = {};
   residuals_.clear();
+  factors_.assign(problem_.signals.size(), 1.0);
+  if (is_point_wise() && !ends_) weigh_signals(start);
   const std::size_t left = problem_.budget - std::min(problem_.budget, summary_.points.size());
   local_limit_ = is_point_wise() ? left : left / problem_.replicates;
 }
@@ -299,6 +317,20 @@ LeastSquaresOptions FitSampler::local_options() const {
   options.differences = Differences::kCentral;
   options.max_iterations = kFeatureIterations;
   return options;
+}
+
+/// Weighs signals as if their noise were their deviation at a point: what the model does not reproduce yet
+/// should not lead astray what follows from the other signals.
+void FitSampler::weigh_signals(const FitPoint& point) {
+  const auto residuals = residuals_of(point);
+  if (!residuals) return;
+  const std::vector<double> deviations = observer_->calc_deviations(*residuals);
+  for (std::size_t k = 0; k < deviations.size(); ++k) {
+    if (problem_.signals[k].compared.t.empty()) continue;
+    factors_[k] = problem_.signals[k].weight / deviations[k];
+  }
+  const double largest = *std::ranges::max_element(factors_);
+  for (double& factor : factors_) factor /= largest;
 }
 
 FitSampler::Points FitSampler::run_local() {
@@ -318,13 +350,12 @@ FitSampler::Points FitSampler::run_local() {
 
 /// Step that changes the sum of squares by as much as the 95 % interval allows, for a parameter in the
 /// middle: shorter ones see the rugged, which is steeper than the valley, longer ones its bends.
-double FitSampler::find_last_step(const LeastSquaresResult& result) const {
-  const std::vector<double> residuals = as_vector(result.residuals);
-  const double noise = 4.0 * result.sum / static_cast<double>(residuals.size());
+double FitSampler::find_last_step(const std::vector<double>& residuals) const {
+  const double noise = 4.0 * sum_of_squares(residuals) / static_cast<double>(residuals.size());
   const double change = std::sqrt(noise + (leaves_noise_ ? 0.0 : observer_->misfit(residuals)));
   std::vector<double> steps;
-  for (Eigen::Index i = 0; i < result.jacobian.cols(); ++i)
-    steps.push_back(change / std::max(result.jacobian.col(i).norm(), std::numeric_limits<double>::min()));
+  for (Eigen::Index i = 0; i < jacobian_.cols(); ++i)
+    steps.push_back(change / std::max(jacobian_.col(i).norm(), std::numeric_limits<double>::min()));
   std::ranges::sort(steps);
   return std::clamp(steps[steps.size() / 2], kDifferenceSteps.back(), kDifferenceSteps.front());
 }
@@ -335,19 +366,15 @@ void FitSampler::end_local(LeastSquaresResult result) {
     choose_best(base_points_);
     if (step_ == 0 && !ends_) set_box(result);
     if (!ends_ && step_ + 1 < kDifferenceSteps.size()) return begin_local(best_, step_ + 1);
-    const std::vector<double> residuals = as_vector(result.residuals);
-    leaves_noise_ =
-        observer_->is_noise(residuals) && observer_->misfit(residuals) < kNoiseMisfit * result.sum;
-    if (!leaves_noise_ && !ends_ && search_ + 1 < kMostSearches && summary_.points.size() < global_limit_) {
-      ++search_;
-      return begin_global();
-    }
-    if (!std::exchange(ends_, true)) {
-      last_step_ = find_last_step(result);
-      return begin_local(best_, step_);
-    }
+    const std::vector<double> residuals = residuals_of(best_).value();
+    leaves_noise_ = observer_->is_noise(residuals) &&
+                    observer_->misfit(residuals) < kNoiseMisfit * sum_of_squares(residuals);
+    jacobian_ = result.jacobian;
+    if (!ends_ && !leaves_noise_ && gains_since(pass_start_)) return begin_local(best_, 0);
+    if (!ends_) return !leaves_noise_ && summary_.points.size() < global_limit_ ? begin_scan() : end_search();
   }
-  summary_.local_end = result.message;
+  summary_.local_end =
+      result.end == FitEnd::kMostEvaluations ? "The budget ended the least squares." : result.message;
   summary_.stage = FitStage::kPrediction;
   if (result.x.empty() || result.end == FitEnd::kStartFailed) {
     summary_.remarks.push_back("There are no intervals: " + result.message);
@@ -373,10 +400,48 @@ void FitSampler::end_local(LeastSquaresResult result) {
   if (!leaves_noise_) {
     summary_.remarks.emplace_back(
         "The best jobs leave more than noise: the search may have missed better values, or the linkage is "
-        "not that of the measurement. The intervals are linearised ones, and count the misfit.");
+        "not that of the measurement. No interval can say how sure the values are; the ranges are those of "
+        "points about as good as the best.");
+    if (is_point_wise()) summary_.ranges = find_ranges();
   } else if (problem_.profiles && is_point_wise()) {
     summary_.stage = FitStage::kProfile;
   }
+}
+
+void FitSampler::begin_scan() {
+  summary_.stage = FitStage::kScan;
+  scan_.clear();
+  const std::size_t n = best_.size();
+  const std::size_t values = std::clamp(kScanPoints / n, kFewestScanValues, kMostScanValues);
+  for (std::size_t k = 0; k < values; ++k) {
+    const UnitPoint parts(n, (static_cast<double>(k) + 0.5) / static_cast<double>(values));
+    const FitPoint even = point_at(problem_, parts);
+    for (std::size_t i = 0; i < n; ++i) {
+      scan_.push_back(best_);
+      scan_.back()[i] = even[i];
+    }
+  }
+}
+
+FitSampler::Points FitSampler::run_scan() {
+  Points missing = missing_of(scan_);
+  if (!missing.empty()) return missing;
+  const FitPoint before = best_;
+  base_points_.insert(base_points_.end(), scan_.begin(), scan_.end());
+  choose_best(base_points_);
+  if (gains_since(before)) begin_local(best_, 0);
+  else end_search();
+  return {};
+}
+
+void FitSampler::end_search() {
+  if (!leaves_noise_ && search_ + 1 < kMostSearches && summary_.points.size() < global_limit_) {
+    ++search_;
+    return begin_global();
+  }
+  ends_ = true;
+  last_step_ = find_last_step(residuals_of(best_).value());
+  begin_local(best_, step_);
 }
 
 FitSampler::Points FitSampler::run_profile() {
@@ -424,7 +489,9 @@ FitSampler::Points FitSampler::tell_least_squares(const Points& points) {
     const Points more = missing_of(replicates_of(point));
     missing.insert(missing.end(), more.begin(), more.end());
     if (!more.empty()) continue;
-    if (auto residuals = residuals_of(point)) evaluations_.tell(point, std::move(*residuals));
+    auto residuals = residuals_of(point);
+    if (residuals && is_point_wise()) residuals = observer_->scale_signals(std::move(*residuals), factors_);
+    if (residuals) evaluations_.tell(point, std::move(*residuals));
     else evaluations_.tell_failed(point);
   }
   return missing;

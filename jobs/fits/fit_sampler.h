@@ -52,6 +52,7 @@ class FitSampler final : public StudySampler {
   Points run_scatter();
   Points run_global();
   Points run_local();
+  Points run_scan();
   Points run_profile();
   void run_prediction(NextCases& next);
 
@@ -63,10 +64,15 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] UnitPoint box_parts_of(const FitPoint& point) const;
   void set_box(const LeastSquaresResult& result);
   void begin_local(const FitPoint& start, std::size_t step);
+  [[nodiscard]] bool gains_since(const FitPoint& earlier);
+  void weigh_signals(const FitPoint& point);
+  void begin_scan();
+  /// Another search, or the last least squares.
+  void end_search();
   void set_basis(FitBasis basis);
   /// Sums of all points by features and their scale.
   void sum_features();
-  [[nodiscard]] double find_last_step(const LeastSquaresResult& result) const;
+  [[nodiscard]] double find_last_step(const std::vector<double>& residuals) const;
   void end_local(LeastSquaresResult result);
 
   // Points and their jobs.
@@ -84,9 +90,10 @@ class FitSampler final : public StudySampler {
   /// Residuals as the basis has them; empty if the jobs have failed.
   [[nodiscard]] std::optional<std::vector<double>> residuals_of(const FitPoint& point);
   [[nodiscard]] std::vector<double> feature_residuals(const std::vector<double>& features) const;
-  /// Sum of the squares of the residuals; empty as residuals_of() is.
-  [[nodiscard]] std::optional<double> sum_of(const FitPoint& point);
+  /// FitPointSummary::loss, a mean for features; empty as residuals_of() is.
+  [[nodiscard]] std::optional<double> loss_of(const FitPoint& point);
   void choose_best(const Points& among);
+  [[nodiscard]] std::vector<ValueRange> find_ranges() const;
   /// Tells the least squares points that are there. @returns those that are not
   Points tell_least_squares(const Points& points);
   [[nodiscard]] bool is_point_wise() const {
@@ -102,7 +109,7 @@ class FitSampler final : public StudySampler {
   std::vector<std::vector<std::string>> swept_;        ///< of the jobs of each point, one a run; empty: none
   std::vector<std::size_t> pending_;                   ///< points with jobs that have not ended
   std::map<FitPoint, std::vector<double>> residuals_;  ///< point-wise ones that may be needed again
-  double least_sum_ = std::numeric_limits<double>::infinity();  ///< of point-wise ones until the local stage
+  double least_loss_ = std::numeric_limits<double>::infinity();  ///< of point-wise ones, of searches
   std::map<FitPoint, std::vector<double>> features_;
   std::vector<double> feature_scale_;
   Points base_points_;  ///< those that are no replicates
@@ -110,13 +117,17 @@ class FitSampler final : public StudySampler {
   std::optional<PopulationSearch> population_;
   std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
   FitPoint box_centre_;
+  Eigen::MatrixXd jacobian_;  ///< of the least squares that ended last
   std::size_t search_ = 0;    ///< number of the population search
   bool leaves_noise_ = true;  ///< whether the residuals of the least squares are noise
   bool ends_ = false;         ///< whether the last least squares have begun
-  std::size_t step_ = 0;      ///< of the differences of least squares, in kDifferenceSteps
+  Points scan_;
+  std::vector<double> factors_;  ///< of each signal's residuals in least squares
+  std::size_t step_ = 0;         ///< of the differences of least squares, in kDifferenceSteps
   std::size_t global_limit_ = 0, search_limit_ = 0, local_limit_ = 0;  ///< numbers of points
   Evaluations evaluations_;                                            ///< of the least squares
   FitPoint local_start_;
+  FitPoint pass_start_;  ///< start of the least squares with the longest step
   double last_step_ = 0.0;  ///< of the differences for the intervals
   std::optional<LeastSquaresResult> local_;
   std::size_t restarts_ = 0;  ///< of the least squares, from better points that profiles met

@@ -7,6 +7,7 @@
 
 #include "jobs/fits/fit_cases.h"
 #include "jobs/fits/fit_sampler.h"
+#include "jobs/fits/observation.h"
 #include "jobs/requests/expand.h"
 
 namespace jobs {
@@ -14,17 +15,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double sum_of_squares(const std::vector<double>& residuals) {
-  double sum = 0.0;
-  for (const double value : residuals) sum += value * value;
-  return sum;
-}
+/// Deviation of a signal over that with the best values, up to which a point counts as about as good.
+constexpr double kAsGood = 1.5;
 
 }  // namespace
 
 void FitSampler::sum_features() {
   for (FitPointSummary& point : summary_.points)
-    if (point.sum) point.sum = sum_of_squares(feature_residuals(features_.at(point.point)));
+    if (point.sum) point.loss = *point.sum = sum_of_squares(feature_residuals(features_.at(point.point)));
 }
 
 FitSampler::Points FitSampler::missing_of(const Points& points) const {
@@ -125,10 +123,13 @@ void FitSampler::take(std::size_t index, Observation observation) {
   features_.emplace(point.point, std::move(observation.features));
   point.sum =
       sum_of_squares(is_point_wise() ? observation.residuals : feature_residuals(features_.at(point.point)));
+  if (is_point_wise()) point.deviations = observer_->calc_deviations(observation.residuals);
+  point.loss = is_point_wise() ? observer_->calc_loss(point.deviations) : *point.sum;
   if (!is_point_wise()) return;
-  if (summary_.stage == FitStage::kDesign || summary_.stage == FitStage::kGlobal) {
-    if (!(*point.sum < least_sum_)) return;
-    least_sum_ = *point.sum;
+  if (summary_.stage != FitStage::kLocal && summary_.stage != FitStage::kProfile &&
+      summary_.stage != FitStage::kDivergence) {
+    if (!(point.loss < least_loss_)) return;
+    least_loss_ = point.loss;
     residuals_.clear();
   }
   residuals_.insert_or_assign(point.point, std::move(observation.residuals));
@@ -166,8 +167,9 @@ std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& poin
   return feature_residuals(mean);
 }
 
-std::optional<double> FitSampler::sum_of(const FitPoint& point) {
-  if (is_point_wise()) return summary_.points[indices_.at(point)].sum;
+std::optional<double> FitSampler::loss_of(const FitPoint& point) {
+  const FitPointSummary& known = summary_.points[indices_.at(point)];
+  if (is_point_wise()) return known.sum ? std::optional(known.loss) : std::nullopt;
   const auto residuals = residuals_of(point);
   return residuals ? std::optional(sum_of_squares(*residuals)) : std::nullopt;
 }
@@ -175,12 +177,34 @@ std::optional<double> FitSampler::sum_of(const FitPoint& point) {
 void FitSampler::choose_best(const Points& among) {
   std::optional<double> least;
   for (const FitPoint& point : among) {
-    const auto sum = sum_of(point);
-    if (!sum || !std::isfinite(*sum) || (least && !(*sum < *least))) continue;
-    least = sum;
+    const auto loss = loss_of(point);
+    if (!loss || !std::isfinite(*loss) || (least && !(*loss < *least))) continue;
+    least = loss;
     best_ = point;
     summary_.best = indices_.at(point);
   }
+}
+
+std::vector<ValueRange> FitSampler::find_ranges() const {
+  const FitPointSummary& best = summary_.points[summary_.best.value()];
+  std::vector<ValueRange> ranges;
+  for (const double value : best.point) ranges.push_back({value, value});
+  for (const FitPointSummary& point : summary_.points) {
+    bool is_as_good = point.deviations.size() == best.deviations.size();
+    for (std::size_t k = 0; is_as_good && k < best.deviations.size(); ++k)
+      is_as_good = point.deviations[k] <= kAsGood * best.deviations[k];
+    for (std::size_t i = 0; is_as_good && i < ranges.size(); ++i) {
+      ranges[i].low = std::min(ranges[i].low, point.point[i]);
+      ranges[i].high = std::max(ranges[i].high, point.point[i]);
+    }
+  }
+  for (std::size_t i = 0; i < ranges.size() && summary_.intervals; ++i) {
+    const Estimate& interval = summary_.intervals->parameters[i];
+    const Span& span = problem_.parameters[i].span;
+    ranges[i].low = std::clamp(interval.low, span.from, ranges[i].low);
+    ranges[i].high = std::clamp(interval.high, ranges[i].high, span.to);
+  }
+  return ranges;
 }
 
 }  // namespace jobs

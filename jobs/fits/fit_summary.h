@@ -17,13 +17,13 @@ namespace jobs {
 
 /// Stage of a fit. kDesign: points that fill the space (Sobol). kDivergence: points beside the best one, by
 /// which the basis is chosen. kScatter: more of them, whose features give the scale of features. kGlobal:
-/// population search. kLocal: least squares. kProfile: profile likelihood. kPrediction: runs
-/// that are held back, with the best values.
-enum class FitStage { kDesign, kDivergence, kScatter, kGlobal, kLocal, kProfile, kPrediction, kEnded };
+/// population search. kLocal: least squares. kScan: each parameter over its span, the others as in the best
+/// point. kProfile: profile likelihood. kPrediction: runs that are held back, with the best values.
+enum class FitStage { kDesign, kDivergence, kScatter, kGlobal, kLocal, kScan, kProfile, kPrediction, kEnded };
 
 [[nodiscard]] constexpr std::string_view stage_name(FitStage stage) {
-  constexpr std::array<std::string_view, 8> kNames{"design", "divergence", "scatter",    "global",
-                                                   "local",  "profile",    "prediction", "ended"};
+  constexpr std::array<std::string_view, 9> kNames{"design", "divergence", "scatter",    "global", "local",
+                                                   "scan",   "profile",    "prediction", "ended"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 
@@ -39,9 +39,16 @@ struct FitPointSummary {
   FitPoint point;
   FitStage stage = FitStage::kDesign;
   FitPointState state = FitPointState::kPending;
-  std::optional<double> sum{};  ///< of the squares of residuals; of samples until the basis is known
+  std::optional<double> sum{};       ///< of the squares of residuals; of samples until the basis is known
+  double loss = 0.0;                 ///< by which points are compared, if there is a sum
+  std::vector<double> deviations{};  ///< FitObserver::calc_deviations(); empty: features are compared
   std::optional<std::string> lost_reason{};  ///< as OptimisationCandidate has it
   std::vector<std::string> job_ids{};        ///< one a run; empty where there is no job
+};
+
+/// Least and largest value of a parameter.
+struct ValueRange {
+  double low = 0.0, high = 0.0;
 };
 
 /// Deviations of one signal with the best values.
@@ -60,6 +67,8 @@ struct FitSummary {
   std::optional<std::string> local_end{};   ///< how the least squares ended, a sentence
   std::optional<FitIntervals> intervals{};  ///< at the best point
   std::optional<std::vector<ProfileInterval>> profiles{};
+  std::vector<ValueRange>
+      ranges{};  ///< of points about as good as the best, where that leaves more than noise
   std::vector<std::string> remarks{};  ///< sentences: what is not identifiable, and what to mind
   std::vector<SignalSummary> signals{};
 };

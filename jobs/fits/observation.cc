@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "engine/errors.h"
 
@@ -146,6 +147,10 @@ std::optional<std::vector<double>> calc_residuals(const MeasuredSignal& measured
     (*residuals)[i] = weight * ((*residuals)[i] - measured.y[k]) / sigma;
   }
   return residuals;
+}
+
+double sum_of_squares(std::span<const double> values) {
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
 }
 
 }  // namespace jobs

@@ -69,4 +69,6 @@ enum class Samples { kFitted, kHeldBack };
                                                                 std::span<const double> y,
                                                                 const SensorModel& sensor);
 
+[[nodiscard]] double sum_of_squares(std::span<const double> values);
+
 }  // namespace jobs

@@ -95,15 +95,16 @@ std::string short_number(const json& value, const char* otherwise) {
   return text;
 }
 
-/// One line a parameter: value and 95 % interval, that of the profile likelihood if it is there.
+/// One line a parameter: value, and how sure it is.
 void print_values(const json& study) {
   for (const json& parameter : study.at("parameters")) {
+    const bool has_range = !parameter.at("range").is_null();
     const bool has_profile = !parameter.at("profile").is_null();
-    const json& interval = has_profile ? parameter.at("profile") : parameter.at("linearised");
+    const json& interval = parameter.at(has_range ? "range" : has_profile ? "profile" : "linearised");
     std::cerr << parameter.at("path").get<std::string>() << " = " << short_number(parameter.at("value"), "?");
     if (!interval.is_null()) {
-      std::cerr << ", 95 % interval " << short_number(interval.at("low"), "none") << " to "
-                << short_number(interval.at("high"), "none");
+      std::cerr << (has_range ? ", range " : ", 95 % interval ") << short_number(interval.at("low"), "none")
+                << " to " << short_number(interval.at("high"), "none");
     }
     std::cerr << '\n';
   }

@@ -103,6 +103,8 @@ Json make_fitted_parameter() {
                                 "95 % interval by the derivatives at the best point; an end "
                                 "is null if there is none")},
        {"profile", described(make_interval(), "95 % interval by the profile likelihood")},
+       {"range", described(make_interval(),
+                           "of the points about as good as the best, where that leaves more than noise")},
        {"identified", described(or_null({{"type", "boolean"}}), "whether the signals tell its value")},
        {"from", kNumber},
        {"to", kNumber}});
@@ -145,10 +147,10 @@ Json make_fit() {
        {"thinning", described(kCount, "one of so many measured samples is compared")},
        {"counts", Json{{"$ref", "#/components/schemas/Sweep/properties/counts"}}},
        {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
-       {"stage",
-        choice_of({"design", "divergence", "scatter", "global", "local", "profile", "prediction", "ended"},
-                  "points that fill the space; points beside the best one; the scatter of features; "
-                  "CMA-ES; least squares; profile likelihood; runs that are held back")},
+       {"stage", choice_of({"design", "divergence", "scatter", "global", "local", "scan", "profile",
+                            "prediction", "ended"},
+                           "points that fill the space; points beside the best one; the scatter of features; "
+                           "CMA-ES; least squares; profile likelihood; runs that are held back")},
        {"points", object_of({{"pending", kCount}, {"succeeded", kCount}, {"lost", kCount}})},
        {"basis", or_null(choice_of({"point_wise", "features"}, "what is compared"))},
        {"divergence",
