@@ -77,7 +77,7 @@ json starts_json(const Optimiser& optimiser, const std::string& state) {
     const StartSearch& start = optimiser.starts()[k];
     const bool stopped = state != "running" && start.end == StartEnd::kRunning;
     made.push_back({{"candidates", count_candidates(optimiser, start)},
-                    {"generations", start.search.generations()},
+                    {"generations", start.search->generations()},
                     {"end", stopped ? "stopped" : end_name(start.end)},
                     {"best", single ? value_or_null(best_of_start(optimiser, k)) : json()}});
   }
@@ -145,9 +145,9 @@ json optimisation_json(const StudyRow& row, const Optimiser& optimiser, const Sw
   const OptimisationRequest& request = optimiser.request();
   const std::vector<ListedCandidate> front = optimiser.find_front();
   json made = optimisation_summary_json(row);
-  made["method"] = request.method == PopulationMethod::kCmaEs ? "cma_es" : "nsga2";
+  made["method"] = method_name(request);
   made["budget"] = request.budget;
-  made["population"] = request.population;
+  made["population"] = request.local_method ? json() : json(request.population);
   made["counts"] = progress_json(results.sweep, threads).at("counts");
   made["progress"] = row.state == "running" ? optimiser.progress() : 1.0;
   made["candidates"] = count_states(optimiser);

@@ -37,6 +37,7 @@ class OptimisationParser : private RequestParser {
     read_variables();
     read_objectives();
     read_bounds();
+    read_method();
     read_numbers();
     check_size();
     throw_if_faulty();
@@ -91,6 +92,29 @@ class OptimisationParser : private RequestParser {
       made_.objectives.push_back(std::move(objective));
     }
     if (made_.objectives.size() > 1) made_.method = PopulationMethod::kNsga2;
+  }
+
+  void read_method() {
+    if (!request_.contains("method")) return;
+    const json given = request_.at("method");
+    const bool single = made_.objectives.size() <= 1;
+    if (single && given == "nelder_mead") made_.local_method = LocalMethod::kNelderMead;
+    else if (single && given == "bobyqa") made_.local_method = LocalMethod::kBobyqa;
+    else if (given != (single ? "cma_es" : "nsga2"))
+      return fault("/method",
+                   single ? "must be \"cma_es\", \"nelder_mead\" or \"bobyqa\", as there is one objective"
+                          : "must be \"nsga2\", as there are several objectives");
+    if (!made_.local_method) return;
+    for (const Variable& variable : made_.variables)
+      if (variable.integer)
+        fault("/method", "must be \"cma_es\", as " + variable.path + " has whole numbers only");
+    if (request_.contains("population"))
+      fault("/population", "belongs to cma_es and nsga2: the others try one candidate after the other");
+    if (made_.local_method != LocalMethod::kBobyqa) return;
+    if (request_.contains("bounds"))
+      fault("/method", "must be another one with bounds, across which the objective is not smooth");
+    if (made_.variables.size() == 1)
+      fault("/method", "must be another one with a single variable, \"nelder_mead\", say");
   }
 
   template <std::size_t n>
@@ -158,19 +182,25 @@ class OptimisationParser : private RequestParser {
     made_.budget = read_integer("budget", kBudgetRange, default_budget(n));
     if (made_.method == PopulationMethod::kNsga2 && (made_.population % 4 != 0 || made_.population < 8))
       fault("/population", "must be a multiple of 4, and at least 8, where there are several objectives");
-    if (made_.budget < made_.starts * made_.population)
-      fault("/budget", "must be at least " + std::to_string(made_.starts * made_.population) +
-                           ", one generation of each start");
+    if (made_.budget < made_.starts * fewest_of_a_start())
+      fault("/budget", "must be at least " + std::to_string(made_.starts * fewest_of_a_start()) +
+                           (made_.local_method ? ", twice the variables and one for each start"
+                                               : ", one generation of each start"));
+  }
+
+  [[nodiscard]] std::size_t fewest_of_a_start() const {
+    return made_.local_method ? 2 * made_.variables.size() + 1 : made_.population;
   }
 
   /// Candidates that a search usually needs, as far as a usual number of jobs goes. The same for every
   /// service: a study that goes on reads its request again.
   [[nodiscard]] std::size_t default_budget(std::size_t n) const {
+    const std::size_t of_a_start = made_.local_method ? 50 + 50 * n : 50 + 100 * n;
     const std::size_t usual =
-        made_.method == PopulationMethod::kCmaEs ? made_.starts * (50 + 100 * n) : 25 * made_.population;
+        made_.method == PopulationMethod::kCmaEs ? made_.starts * of_a_start : 25 * made_.population;
     constexpr std::size_t kUsualJobs = 10'000;
     const std::size_t allowed = kUsualJobs / std::max<std::size_t>(1, jobs_of_a_candidate(made_));
-    return std::max(made_.starts * made_.population, std::min(usual, allowed));
+    return std::max(made_.starts * fewest_of_a_start(), std::min(usual, allowed));
   }
 
   void check_size() {
@@ -191,6 +221,11 @@ class OptimisationParser : private RequestParser {
 
 OptimisationRequest parse_optimisation_request(const ordered_json& request, std::size_t max_jobs) {
   return OptimisationParser(request, max_jobs).parse();
+}
+
+std::string_view method_name(const OptimisationRequest& request) {
+  if (request.local_method) return request.local_method == LocalMethod::kBobyqa ? "bobyqa" : "nelder_mead";
+  return request.method == PopulationMethod::kCmaEs ? "cma_es" : "nsga2";
 }
 
 std::size_t jobs_of_a_candidate(const OptimisationRequest& request) {

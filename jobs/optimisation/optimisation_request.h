@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "jobs/optimisation/local_search.h"
 #include "jobs/optimisation/population_search.h"
 #include "jobs/parameters/range.h"
 #include "jobs/requests/sweep_request.h"
@@ -20,9 +21,9 @@
 namespace jobs {
 
 /// Keys of a request.
-inline constexpr std::array<std::string_view, 14> kOptimisationRequestKeys{
-    "name",  "parameters", "over",     "objectives", "bounds",     "sweep",  "replicates",
-    "reuse", "priority",   "executor", "budget",     "population", "starts", "seed"};
+inline constexpr std::array<std::string_view, 15> kOptimisationRequestKeys{
+    "name",     "parameters", "over",   "objectives", "bounds", "sweep", "replicates", "reuse",
+    "priority", "executor",   "budget", "population", "starts", "seed",  "method"};
 inline constexpr std::size_t kMostVariables = 50;
 inline constexpr std::size_t kMostObjectives = 5;
 inline constexpr Range kBudgetRange{.minimum = 5, .maximum = 1e6};
@@ -56,7 +57,8 @@ struct OptimisationRequest {
   std::vector<Objective> objectives;
   std::vector<MetricBound> bounds;
   PopulationMethod method = PopulationMethod::kCmaEs;
-  std::size_t budget = 0;  ///< most candidates of all starts together
+  std::optional<LocalMethod> local_method{};  ///< in the place of `method`
+  std::size_t budget = 0;                     ///< most candidates of all starts together
   std::size_t population = 0;
   std::size_t starts = 1;  ///< searches from different first generations
   std::uint64_t seed = 1;
@@ -64,11 +66,14 @@ struct OptimisationRequest {
 
 /// Reads {"name", "parameters", "over": {parameter: {"from", "to", "scale", "start"}}, "objectives":
 /// [{"metric", "goal", "quantile"}], "bounds": [{"metric", "minimum", "maximum", "quantile"}], "sweep",
-/// "replicates", "reuse", "priority", "executor", "budget", "population", "starts", "seed"}; over and
-/// objectives are needed. Without a quantile the worst value counts.
+/// "replicates", "reuse", "priority", "executor", "method", "budget", "population", "starts", "seed"}; over
+/// and objectives are needed. Without a quantile the worst value counts.
 /// @throws InvalidRequest with every fault
 [[nodiscard]] OptimisationRequest parse_optimisation_request(const nlohmann::ordered_json& request,
                                                              std::size_t max_jobs);
+
+/// "cma_es", "nsga2", "nelder_mead" or "bobyqa".
+[[nodiscard]] std::string_view method_name(const OptimisationRequest& request);
 
 /// Number of jobs of one candidate.
 [[nodiscard]] std::size_t jobs_of_a_candidate(const OptimisationRequest& request);

@@ -11,6 +11,7 @@
 #include "jobs/results/resource_json.h"
 #include "jobs/search/limit.h"
 #include "jobs/search/search_results.h"
+#include "jobs/statistics/unit_points.h"
 
 namespace jobs {
 namespace {
@@ -57,15 +58,29 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
   return better;
 }
 
+std::unique_ptr<PointSearch> make_population_search(const OptimisationRequest& request, std::size_t start) {
+  return std::make_unique<PopulationSearch>(
+      PopulationOptions{.method = request.method,
+                        .dimensions = request.variables.size(),
+                        .objectives = request.objectives.size(),
+                        .population = request.population,
+                        .seed = static_cast<unsigned>(request.seed + start),
+                        .start = start == 0 ? start_of(request) : std::nullopt});
+}
+
+/// The first search begins at the variables' starts, in the middle of the spans if there are none; the others
+/// fill the space.
 std::vector<StartSearch> make_starts(const OptimisationRequest& request) {
+  const std::size_t n = request.variables.size();
+  UnitPoints points = sobol_points(request.starts, n, request.seed);
+  points.front() = start_of(request).value_or(UnitPoint(n, 0.5));
   std::vector<StartSearch> starts;
   for (std::size_t k = 0; k < request.starts; ++k) {
-    starts.push_back({.search = PopulationSearch({.method = request.method,
-                                                  .dimensions = request.variables.size(),
-                                                  .objectives = request.objectives.size(),
-                                                  .population = request.population,
-                                                  .seed = static_cast<unsigned>(request.seed + k),
-                                                  .start = k == 0 ? start_of(request) : std::nullopt})});
+    StartSearch& start = starts.emplace_back();
+    if (request.local_method)
+      start.search =
+          std::make_unique<LocalSearch>(LocalOptions{.method = *request.local_method, .start = points[k]});
+    else start.search = make_population_search(request, k);
   }
   return starts;
 }
@@ -138,8 +153,11 @@ double Optimiser::progress() const {
   double sum = 0.0;
   const double share = static_cast<double>(request_.budget) / static_cast<double>(starts_.size());
   for (const StartSearch& start : starts_) {
-    sum +=
-        start.end == StartEnd::kRunning ? std::min(1.0, static_cast<double>(start.seen.size()) / share) : 1.0;
+    const auto ended = std::ranges::count_if(start.in_order, [this](const std::vector<double>& values) {
+      const auto known = indices_.find(values);
+      return known != indices_.end() && candidates_[known->second].pending == 0;
+    });
+    sum += start.end == StartEnd::kRunning ? std::min(1.0, static_cast<double>(ended) / share) : 1.0;
   }
   return sum / static_cast<double>(starts_.size());
 }
@@ -236,7 +254,7 @@ std::optional<std::vector<double>> Optimiser::find_fitness(const std::vector<dou
 void Optimiser::ask_start(StartSearch& start, NextCases& next) {
   const std::size_t share = request_.budget / starts_.size();
   while (start.end == StartEnd::kRunning) {
-    const auto missing = start.search.ask([&](const UnitPoint& point) {
+    const auto missing = start.search->ask([&](const UnitPoint& point) {
       const std::vector<double> values = candidate_at(request_, point);
       if (start.seen.insert(values).second) start.in_order.push_back(values);
       return find_fitness(values);

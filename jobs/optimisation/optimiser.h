@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/optimisation/optimisation_request.h"
-#include "jobs/optimisation/population_search.h"
+#include "jobs/optimisation/point_search.h"
 #include "jobs/store/rows.h"
 #include "jobs/studies/study_runner.h"
 
@@ -51,7 +52,7 @@ enum class StartEnd { kRunning, kConverged, kBudget };
 
 /// Search from one start.
 struct StartSearch {
-  PopulationSearch search;
+  std::unique_ptr<PointSearch> search;
   std::set<std::vector<double>> seen{};         ///< candidates that it has asked for
   std::vector<std::vector<double>> in_order{};  ///< the same, in the order of asking
   StartEnd end = StartEnd::kRunning;

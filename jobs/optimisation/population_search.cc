@@ -171,8 +171,6 @@ class PopulationSearch::State {
 PopulationSearch::PopulationSearch(const PopulationOptions& options)
     : state_(std::make_unique<State>(options)) {}
 PopulationSearch::~PopulationSearch() = default;
-PopulationSearch::PopulationSearch(PopulationSearch&& other) noexcept = default;
-PopulationSearch& PopulationSearch::operator=(PopulationSearch&& other) noexcept = default;
 
 std::vector<UnitPoint> PopulationSearch::ask(const FindFitness& find_fitness) {
   return state_->ask(find_fitness);

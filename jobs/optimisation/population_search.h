@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include "jobs/optimisation/point_search.h"
 
 namespace jobs {
 
@@ -13,9 +14,6 @@ namespace jobs {
 /// (N. Hansen, arXiv:1604.00772), the elitist non-dominated sorting genetic algorithm for several (K. Deb et
 /// al., IEEE Trans. Evol. Comput. 6 (2002) 182).
 enum class PopulationMethod { kCmaEs, kNsga2 };
-
-/// Point of the unit cube.
-using UnitPoint = std::vector<double>;
 
 struct PopulationOptions {
   PopulationMethod method = PopulationMethod::kCmaEs;
@@ -30,22 +28,15 @@ struct PopulationOptions {
 /// Individuals of a generation that suit a method. @param dimensions  >= 1
 [[nodiscard]] std::size_t default_population(PopulationMethod method, std::size_t dimensions);
 
-/// Minimisation over the unit cube with pagmo's evolutionary algorithms, with the ask-and-tell interface:
-/// each generation is asked for as a whole, so that its points can be evaluated at the same time. The points
-/// depend on the options and on the fitness alone: a search that starts anew asks for the same ones.
-class PopulationSearch {
+/// Minimisation over the unit cube with pagmo's evolutionary algorithms, for which only the order of fitness
+/// counts. Each generation is asked for as a whole, so that its points can be evaluated at the same time.
+class PopulationSearch final : public PointSearch {
  public:
-  /// Fitness of a point, one number an objective; empty: not known yet. Only its order counts.
-  using FindFitness = std::function<std::optional<std::vector<double>>(const UnitPoint&)>;
-
   explicit PopulationSearch(const PopulationOptions& options);
-  ~PopulationSearch();
-  PopulationSearch(PopulationSearch&& other) noexcept;
-  PopulationSearch& operator=(PopulationSearch&& other) noexcept;
+  ~PopulationSearch() override;
 
-  /// Points of the current generation without a fitness. None: the search has converged.
-  [[nodiscard]] std::vector<UnitPoint> ask(const FindFitness& find_fitness);
-  [[nodiscard]] std::size_t generations() const;  ///< that are complete
+  [[nodiscard]] std::vector<UnitPoint> ask(const FindFitness& find_fitness) override;
+  [[nodiscard]] std::size_t generations() const override;
 
  private:
   class State;

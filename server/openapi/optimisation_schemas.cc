@@ -11,6 +11,8 @@ namespace server::openapi {
 
 namespace {
 
+const Json kMethods{"cma_es", "nsga2", "nelder_mead", "bobyqa"};
+
 Json make_quantile_of_jobs(std::string_view description) {
   return described({{"type", "number"}, {"minimum", 0}, {"maximum", 1}}, description);
 }
@@ -70,12 +72,15 @@ Json make_optimisation_request() {
                  {"priority", as_in_sweep("priority")},
                  {"executor", as_in_sweep("executor")},
                  {"reuse", as_in_sweep("reuse")},
+                 {"method", described({{"type", "string"}, {"enum", kMethods}},
+                                      "nsga2 with several objectives; with one cma_es, the default, or a "
+                                      "local search, for an objective that is smooth")},
                  {"budget", integer_between(jobs::kBudgetRange, "most candidates, of all starts together")},
                  {"population", integer_between(jobs::kPopulationRange, "candidates of a generation")},
                  {"starts", integer_between(jobs::kStartsRange, "searches from different first candidates")},
                  {"seed", integer_between(jobs::kOptimiserSeedRange, "of the random numbers")}},
                 {"name", "parameters", "bounds", "sweep", "replicates", "priority", "executor", "reuse",
-                 "budget", "population", "starts", "seed"});
+                 "method", "budget", "population", "starts", "seed"});
   request["description"] =
       "Values of parameters for which metrics are least or largest. A candidate has a job for each "
       "combination "
@@ -122,9 +127,9 @@ Json make_optimisation() {
   Json counts =
       object_of({{"pending", kCount}, {"feasible", kCount}, {"infeasible", kCount}, {"lost", kCount}});
   properties.update(
-      {{"method", {{"type", "string"}, {"enum", {"cma_es", "nsga2"}}}},
+      {{"method", {{"type", "string"}, {"enum", kMethods}}},
        {"budget", kCount},
-       {"population", kCount},
+       {"population", or_null(kCount)},
        {"counts", Json{{"$ref", "#/components/schemas/Sweep/properties/counts"}}},
        {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
        {"candidates", described(std::move(counts), "by state; lost: a job without a value")},

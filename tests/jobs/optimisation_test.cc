@@ -2,6 +2,7 @@
 // Optimisations on a service whose first metric is sqrt(1000 crank_velocity + c_r), and whose jobs fail where
 // restitution is 0.5.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -242,6 +243,54 @@ TEST(Optimisation, GoesOnAfterARestartWithoutRepeatingAJob) {
   EXPECT_LE(engine.begun_speeds().size(), ended.at("counts").at("total").get<std::size_t>() + 1);
 }
 
+ordered_json local_request(const char* method) {
+  ordered_json request = least_request();
+  request["method"] = method;
+  request["over"]["crank_velocity_rad_s"]["start"] = 7;
+  return request;
+}
+
+TEST(Optimisation, FindsTheLeastValueByALocalSearch) {
+  json whole;
+  {
+    const TemporaryStore store;
+    FakeEngine engine;
+    jobs::Service service(options_of(store, engine, 2));
+    whole = run(service, local_request("nelder_mead"));
+    EXPECT_EQ(whole.at("state"), "succeeded");
+    EXPECT_EQ(whole.at("method"), "nelder_mead");
+    EXPECT_EQ(whole.at("population"), json());
+    EXPECT_NEAR(whole.at("best").at("values").at("crank_velocity_rad_s").get<double>(), 1.0, 0.01);
+    for (const json& start : whole.at("starts")) EXPECT_EQ(start.at("end"), "converged");
+    EXPECT_TRUE(std::ranges::count(engine.begun_speeds(), 7.0) == 1);
+  }
+  // The same after a restart, and no job is computed twice but for the one that the end has stopped.
+  const TemporaryStore store;
+  FakeEngine engine;
+  std::string id;
+  {
+    jobs::Service service(options_of(store, engine, 1));
+    id = service.submit_study(kKind, local_request("nelder_mead")).at("id");
+    while (engine.begun_speeds().size() < 5) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  jobs::Service service(options_of(store, engine, 1));
+  const json ended = wait_for_study(service, id);
+  EXPECT_EQ(ended.at("starts"), whole.at("starts"));
+  EXPECT_LE(engine.begun_speeds().size(), ended.at("counts").at("total").get<std::size_t>() + 1);
+}
+
+TEST(Optimisation, FollowsQuadraticModelsOfTwoVariables) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  ordered_json request = local_request("bobyqa");
+  request["over"]["crank_length_m"] = {{"from", 0.1}, {"to", 0.2}};
+  const json ended = run(service, request);
+  EXPECT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(ended.at("method"), "bobyqa");
+  EXPECT_NEAR(ended.at("best").at("values").at("crank_velocity_rad_s").get<double>(), 1.0, 0.02);
+}
+
 TEST(Optimisation, IsCancelledRetriedAndDeleted) {
   const TemporaryStore store;
   FakeEngine engine;
@@ -297,6 +346,29 @@ TEST(Optimisation, NamesEveryFaultOfARequest) {
   EXPECT_EQ(faults("budget", 6), Pointers{"/budget"});
   EXPECT_EQ(faults("population", 3), Pointers{"/population"});
   EXPECT_EQ(faults("starts", 0), Pointers{"/starts"});
+  EXPECT_EQ(faults("method", "simplex"), Pointers{"/method"});
+  EXPECT_EQ(faults("method", "nsga2"), Pointers{"/method"}) << "of several objectives";
+  EXPECT_EQ(faults("method", 3), Pointers{"/method"});
+  EXPECT_EQ(faults("method", "bobyqa"), Pointers{"/method"}) << "of two variables or more";
+  ordered_json local = least_request();
+  local["method"] = "nelder_mead";
+  local["population"] = 8;
+  EXPECT_EQ(optimisation_faults_of(service, local), Pointers{"/population"});
+  local.erase("population");
+  local["budget"] = 5;
+  EXPECT_EQ(optimisation_faults_of(service, local), Pointers{"/budget"});
+  local["budget"] = 200;
+  local["over"] = {{"radial_elements", {{"from", 20}, {"to", 90}}}};
+  EXPECT_TRUE(optimisation_faults_of(service, local).contains("/method"));
+  local["method"] = "bobyqa";
+  local["over"] = {{"crank_velocity_rad_s", {{"from", 1}, {"to", 9}}},
+                   {"crank_length_m", {{"from", 0.1}, {"to", 0.2}}}};
+  EXPECT_EQ(optimisation_faults_of(service, local), Pointers{});
+  local["bounds"] = {{{"metric", metric()}, {"maximum", 1}}};
+  EXPECT_EQ(optimisation_faults_of(service, local), Pointers{"/method"});
+  local.erase("bounds");
+  local["objectives"].push_back({{"metric", "peak_contact_force_n"}});
+  EXPECT_EQ(optimisation_faults_of(service, local), Pointers{"/method"});
   EXPECT_EQ(faults("sweep", {{"crank_velocity_rad_s", {1, 2}}}), Pointers{"/over/crank_velocity_rad_s"});
 }
 

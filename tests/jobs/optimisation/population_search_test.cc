@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <numbers>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "jobs/statistics/splitmix64.h"
+#include "tests/jobs/optimisation/search_problems.h"
 
 namespace jobs_tests {
 namespace {
@@ -21,75 +21,17 @@ namespace {
 using jobs::PopulationMethod;
 using jobs::PopulationOptions;
 using jobs::PopulationSearch;
-using jobs::UnitPoint;
 
-using Function = std::function<std::vector<double>(const UnitPoint&)>;
-using Known = std::map<UnitPoint, std::vector<double>>;
-
-/// Outcome of a search.
-struct Solved {
-  Known known;               ///< all points that it asked for
-  std::size_t repeated = 0;  ///< points that it asked for although they were known
-  bool converged = false;
-};
-
-/// @param most  points that are computed
 Solved solve(const PopulationOptions& options, const Function& function, std::size_t most,
              const Known& known = {}) {
-  Solved solved{.known = known};
   PopulationSearch search(options);
-  while (solved.known.size() < most) {
-    const auto points = search.ask([&](const UnitPoint& point) -> std::optional<std::vector<double>> {
-      const auto found = solved.known.find(point);
-      return found == solved.known.end() ? std::nullopt : std::optional(found->second);
-    });
-    if (points.empty()) {
-      solved.converged = true;
-      return solved;
-    }
-    for (const UnitPoint& point : points)
-      if (!solved.known.emplace(point, function(point)).second) ++solved.repeated;
-  }
-  return solved;
-}
-
-double least_of(const Solved& solved) {
-  double least = INFINITY;
-  for (const auto& [point, values] : solved.known) least = std::min(least, values.front());
-  return least;
-}
-
-std::vector<double> rosenbrock(const UnitPoint& point) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < point.size(); ++i) {
-    const double x = 4.0 * point[i] - 2.0;
-    const double y = 4.0 * point[i + 1] - 2.0;
-    sum += 100.0 * std::pow(y - x * x, 2) + std::pow(1.0 - x, 2);
-  }
-  return {sum};
-}
-
-/// Three equal minima of 0.397887 (F. H. Branin, IBM J. Res. Dev. 16 (1972) 504).
-std::vector<double> branin(const UnitPoint& point) {
-  constexpr double kPi = std::numbers::pi;
-  const double x = 15.0 * point[0] - 5.0;
-  const double y = 15.0 * point[1];
-  const double bowl = y - 5.1 / (4.0 * kPi * kPi) * x * x + 5.0 / kPi * x - 6.0;
-  return {bowl * bowl + 10.0 * (1.0 - 1.0 / (8.0 * kPi)) * std::cos(x) + 10.0};
-}
-
-/// E. Zitzler, K. Deb and L. Thiele, Evol. Comput. 8 (2000) 173: the front is f2 = 1 - sqrt(f1).
-std::vector<double> zdt1(const UnitPoint& point) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < point.size(); ++i) sum += point[i];
-  const double g = 1.0 + 9.0 * sum / static_cast<double>(point.size() - 1);
-  return {point[0], g * (1.0 - std::sqrt(point[0] / g))};
+  return run_search(search, function, most, known);
 }
 
 TEST(PopulationSearch, FindsTheEndOfRosenbrocksValley) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const Solved solved =
-        solve({.dimensions = 3, .population = 8, .seed = seed, .tolerance = 1e-6}, rosenbrock, 5000);
+        solve({.dimensions = 3, .population = 8, .seed = seed, .tolerance = 1e-6}, rosenbrock_valley, 5000);
     EXPECT_LT(least_of(solved), 1e-9) << "seed " << seed;
     EXPECT_TRUE(solved.converged) << "seed " << seed;
     EXPECT_EQ(solved.repeated, 0U) << "seed " << seed;
@@ -134,7 +76,7 @@ TEST(PopulationSearch, AsksAnewForNothingThatIsKnown) {
     const bool single = method == PopulationMethod::kCmaEs;
     const PopulationOptions options{
         .method = method, .dimensions = 3, .objectives = single ? 1U : 2U, .population = 8, .seed = 4};
-    const Function function = single ? Function(rosenbrock) : Function(zdt1);
+    const Function function = single ? Function(rosenbrock_valley) : Function(zdt1);
     const Solved whole = solve(options, function, 400);
     // Half of it, and the rest by another search that knows these.
     const Solved half = solve(options, function, 200);
