@@ -15,6 +15,7 @@ const pages = {
   analyses: () => import("/pages/analyses.js"),
   searches: () => import("/pages/searches.js"),
   wear: () => import("/pages/wear.js"),
+  fits: () => import("/pages/fits.js"),
   jobs: () => import("/pages/job.js"),
 };
 
@@ -24,10 +25,13 @@ let leave = () => {};
 let shown = 0;
 const againMs = 2000;
 
+/// Kinds of pages with a link of their own in the navigation.
+const linked = ["new", "searches", "wear", "optimisations", "fits", "measurements"];
+
 function markNavigation(kind) {
   for (const link of /** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll("header nav a"))) {
     const target = link.hash.slice(2);
-    if (target === (["new", "searches", "wear"].includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
+    if (target === (linked.includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
 }

@@ -45,6 +45,7 @@ set(page_files
   linkages/rsup.json
   linkages/slider_crank.json
   pages/analyses.js
+  pages/fits.js
   pages/job.js
   pages/new_sweep.js
   pages/searches.js
@@ -86,7 +87,12 @@ set(page_files
   study/data.js
   study/executors.js
   study/failures.js
+  study/fit_answer.js
+  study/fit_points.js
+  study/fit_signals.js
+  study/fit_view.js
   study/heat_map.js
+  study/interval_bar.js
   study/legend.js
   study/limit_curve.js
   study/limit_points.js
@@ -101,6 +107,7 @@ set(page_files
   study/study_view.js
   study/sweep_row.js
   study/table.js
+  study/variables.js
   study/wear_charts.js
   study/wear_view.js
   style/base.css

@@ -28,19 +28,20 @@ const base = new URL("..", import.meta.url).pathname.replace(/\/$/, "");
 /// Path of the service as the browser reaches it. @type {(path: string) => string}
 export const addressOf = (path) => base + path;
 
+/// Answer to a request. @param type  of a body that is sent as it is; without it the body is sent as JSON
 /**
  * @param {string} path
- * @param {{ method?: string, body?: unknown, signal?: AbortSignal }} options
+ * @param {{ method?: string, body?: any, type?: string, signal?: AbortSignal }} options
  * @returns {Promise<any>} of JSON; null where there is none
  */
-export async function ask(path, { method = "GET", body, signal } = {}) {
+export async function ask(path, { method = "GET", body, type, signal } = {}) {
   /** @type {Record<string, string>} */
-  const headers = body === undefined ? {} : { "Content-Type": "application/json" };
+  const headers = body === undefined ? {} : { "Content-Type": type ?? "application/json" };
   let answer;
   let text;
   try {
     answer = await fetch(path,
-      { method, headers, signal, body: body === undefined ? undefined : JSON.stringify(body) });
+      { method, headers, signal, body: body === undefined || type ? body : JSON.stringify(body) });
     text = await answer.text();
   } catch (error) {
     if (error.name === "AbortError") throw error;
@@ -111,6 +112,7 @@ function studies(path) {
     cancel: (id) => ask(`${of(id)}/cancel`, { method: "POST" }),
     retry: (id) => ask(`${of(id)}/retry`, { method: "POST" }),
     remove: (id) => ask(of(id), { method: "DELETE" }),
+    results: (id, query, signal) => ask(withQuery(`${of(id)}/results`, query), { signal }),
     resultsUrl: (id, query) => withQuery(`${of(id)}/results`, query),
     eventsUrl: (id) => `${of(id)}/events`,
   };
@@ -120,6 +122,40 @@ function studies(path) {
 export const searches = studies(addressOf("/v1/searches"));
 /** @type {WearStudies} */
 export const wearStudies = studies(addressOf("/v1/wear-studies"));
+/** @type {Fits} */
+export const fits = studies(addressOf("/v1/fits"));
+/** @type {Optimisations} */
+export const optimisations = studies(addressOf("/v1/optimisations"));
+
+/// Samples of a fit with measured and predicted value. @param query  columns with the values to filter by
+/**
+ * @type {(id: string, query: Api.Filters<"/v1/fits/{id}/signals">, signal: AbortSignal) =>
+ *   Promise<Required<Api.Schemas["FitSignalRows"][number]>[]>}
+ */
+export const findFitSignals = (id, query, signal) =>
+  ask(withQuery(`${fits.path}/${encodeURIComponent(id)}/signals`, query), { signal });
+
+/** @type {(id?: string) => string} */
+const measurementPath = (id) => addressOf(`/v1/measurements${id ? `/${encodeURIComponent(id)}` : ""}`);
+/** @type {(query: Api.Query<"/v1/measurements">, signal: AbortSignal) => Promise<Api.Page<"/v1/measurements">>} */
+export const listMeasurements = (query, signal) => ask(withQuery(measurementPath(), query), { signal });
+/** @type {(id: string, signal: AbortSignal) => Promise<Api.Measurement>} */
+export const findMeasurement = (id, signal) => ask(measurementPath(id), { signal });
+/** @type {(id: string) => Promise<null>} */
+export const deleteMeasurement = (id) => ask(measurementPath(id), { method: "DELETE" });
+/// Stores the text or the bytes of a file. @param query  name, time, channels
+/** @type {(content: string | Blob, type: string, query: object) => Promise<Api.Measurement>} */
+export const submitMeasurement = (content, type, query) =>
+  ask(withQuery(measurementPath(), query), { method: "POST", body: content, type });
+/** @param {string} id  @param {Api.Query<"/v1/measurements/{id}/data">} query */
+export const measurementDataUrl = (id, query = {}) => withQuery(`${measurementPath(id)}/data`, query);
+/// Columns of a run, with its time as "t_s".
+/**
+ * @type {(id: string, query: Api.Query<"/v1/measurements/{id}/data">, signal: AbortSignal) =>
+ *   Promise<Record<string, number[]>>}
+ */
+export const findMeasured = (id, query, signal) => ask(measurementDataUrl(id, query), { signal })
+  .then(({ columns }) => columns);
 
 /** @type {(id: string) => string} */
 export const eventsUrl = (id) => `${sweepPath(id)}/events`;

@@ -25,7 +25,7 @@ export function follow(id, told, signal) {
 
 /// The same of a study. @param api  of its kind
 /**
- * @param {Searches | WearStudies} api
+ * @param {AnyStudies} api
  * @param {string} id
  * @param {{ progress?: (now: any) => void, done?: () => void }} told
  * @param {AbortSignal} signal

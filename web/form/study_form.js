@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Base of the forms of searches and wear studies: values whose help is that of the request's schema.
+// Base of the forms of studies: values whose help is that of the request's schema.
 import { parameterSchema, requestSchemas } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { nameOf, unitOf } from "/core/format.js";
@@ -31,7 +31,7 @@ export async function showStudyForm(main, Form, example, query, signal) {
 
 /// Its kinds have `static api`, `route`, `title`, `schema` (its request's name in the interface's description).
 export class StudyForm extends RequestForm {
-  /** @type {Searches | WearStudies} */
+  /** @type {AnyStudies} */
   static api;
   static route = "";
   static title = "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Base of the pages of one search and of one wear study: charts side by side, a table and actions, kept up to date.
+// Base of the page of one study: charts side by side, a table and actions, kept up to date.
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
@@ -18,14 +18,15 @@ const reloadMs = 1000;
 export async function showStudy(main, View, id, signal) {
   loadCharts().catch(() => {});  // told where a chart would be
   const view = new View(await View.api.find(id, signal), signal);
+  await view.findMore();
   main.replaceChildren(...view.parts());
   await view.start();
 }
 
 /// Its kinds have `static api` and `static route`, and say what is drawn: charts, tableName, columns, statusText, row.
-/** @template {Api.Search | Api.WearStudy} Kept */
+/** @template {Api.Search | Api.WearStudy | Api.Fit | Api.Optimisation} Kept */
 export class StudyView {
-  /** @type {Searches | WearStudies} */
+  /** @type {AnyStudies} */
   static api;
   /** @type {string} */
   static route;
@@ -58,15 +59,20 @@ export class StudyView {
     return this.study.name || this.study.id;
   }
 
-  /// Each chart: its title, the function that makes it, what stands above it.
+  /// Each chart: its title, the function that makes it, what stands above it, whether it takes the whole width.
   /**
-   * @returns {{ title: string, above?: HTMLElement,
+   * @returns {{ title: string, above?: HTMLElement, wide?: boolean,
    *   make: (element: HTMLElement, view: any, signal: AbortSignal) => Promise<Chart> }[]}
    */
   charts() { return []; }
   /// Elements above the charts.
   /** @returns {HTMLElement[]} */
   intro() { return []; }
+  /// Elements below the table.
+  /** @returns {HTMLElement[]} */
+  more() { return []; }
+  /// Finds what is shown beside the study; called each time before that is drawn.
+  async findMore() {}
   /// Columns of the table: [heading, "number" for numbers].
   /** @returns {string[][]} */
   columns() { return []; }
@@ -81,18 +87,20 @@ export class StudyView {
   parts() {
     document.title = `RPSUP: ${this.name}`;
     this.places = this.charts()
-      .map(({ title, make, above }) => ({ make, element: h("div", { class: "chart tall" }), title, above }));
+      .map((chart) => ({ ...chart, element: h("div", { class: "chart tall" }) }));
     const cards = this.places.map(({ title, element, above }, index) => h("section", { class: "card" },
       h("div", { class: "head" }, h("h2", {}, title),
         saveButtons(() => this.drawn[index], () => `${this.name} ${title.toLowerCase()}`)), above, element));
+    const isWide = (_, index) => Boolean(this.places?.[index].wide);
     return [
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.name), this.status), this.buttons), ...this.intro(),
-      h("div", { class: "columns even" }, cards),
+      h("div", { class: "columns even" }, cards.filter((card, index) => !isWide(card, index))),
+      ...cards.filter(isWide),
       h("section", { class: "card" }, h("h2", {}, this.tableName),
         h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.tableName },
         h("table", {}, h("thead", {},
           h("tr", {}, this.columns().map(([text, look]) => h("th", { scope: "col", class: look }, text)))),
-          this.body)))];
+          this.body))), ...this.more()];
   }
 
   async start() {
@@ -122,6 +130,7 @@ export class StudyView {
     if (this.isRemoved) return;
     try {
       this.study = /** @type {Kept} */ (await this.kind.api.find(this.study.id, this.signal));
+      await this.findMore();
       this.draw();
       for (const chart of this.drawn) chart?.draw();
     } catch (error) {

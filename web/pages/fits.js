@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fits: their list, the form of a new one, and the view of one.
+import { fits } from "/core/api.js";
+import { FitView } from "/study/fit_view.js";
+import { showStudies } from "/study/study_list.js";
+import { showStudy } from "/study/study_view.js";
+import { nameOfVariable } from "/study/variables.js";
+
+const kind = {
+  api: fits, route: "fits", title: "Fits",
+  question: "Values of parameters with which jobs give measured signals, and how sure they are.", listName: "Fits",
+  aim: { heading: "Parameters",
+    /** @param {Api.Listed<"/v1/fits">} fit */
+    textOf: ({ variables }) => variables.map(nameOfVariable).join(", ") },
+  none: "No fits yet.", begin: "New fit",
+};
+
+/** @param {HTMLElement} main  @param {Visit} view */
+export function show(main, { id, signal }) {
+  return id ? showStudy(main, FitView, id, signal) : showStudies(main, kind, signal);
+}

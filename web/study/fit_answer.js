@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The answer of a fit: in sentences, as errors of its signals, and as the correlation of its parameters.
+import { h } from "/core/dom.js";
+import { nameOf, number, plural, unitOf } from "/core/format.js";
+import { routeTo } from "/core/route.js";
+import { nameOfSignal } from "/study/fit_signals.js";
+import { intervalText } from "/study/interval_bar.js";
+import { nameOfVariable, unitOfVariable } from "/study/variables.js";
+
+const strong = 0.9;  // correlation from which on it is marked
+
+/** @type {Record<Api.Fit["stage"], string>} */
+export const stageNames = { design: "points that fill the space", divergence: "points beside the best one",
+  scatter: "scatter of features", global: "CMA-ES", local: "least squares", profile: "profile likelihood",
+  prediction: "prediction of runs held back", ended: "ended" };
+
+const bases = { point_wise: "The signals are compared point by point.",
+  features: "Features of the signals are compared: peaks, impacts, envelope and bands." };
+
+/** @param {Api.Schemas["FittedParameter"]} parameter */
+function sentenceOf({ path, value, profile, linearised }) {
+  const unit = unitOfVariable(path);
+  const interval = profile ?? linearised;
+  const sure = interval ? ` (95 %: ${intervalText(interval, 5)})` : "";
+  return `${nameOfVariable(path).toLowerCase()} ${number(value, 5)}${unit ? ` ${unit}` : ""}${sure}`;
+}
+
+/// What came of a fit in sentences, what the signals do not tell, and the jobs of the best point.
+/** @param {Api.Fit} fit */
+export function answerOf({ state, parameters, signals, basis, divergence, local_end: end, remarks, best, thinning }) {
+  if (!best) return [h("p", { class: "quiet" }, state === "running" ? "No point has been computed yet."
+    : "No point has a value.")];
+  const found = `${parameters.map(sentenceOf).join("; ")}.`;
+  const sentence = state === "running" ? `So far: ${found}` : found.charAt(0).toUpperCase() + found.slice(1);
+  const heldBack = signals.flatMap(({ channel, held_back: error }) => (error
+    ? [`${nameOf(channel)}: what is held back is predicted with an error of `
+      + `${number(100 * error.relative_rms, 3)} % of the signal.`] : []));
+  const unknown = parameters.filter(({ identified }) => identified === false);
+  const missed = unknown.length === 0 ? ""
+    : `The signals do not tell ${unknown.map(({ path }) => nameOfVariable(path).toLowerCase()).join(", ")}.`;
+  const compared = [divergence?.message ?? (basis ? bases[basis] : ""),
+    thinning > 1 ? `One of ${thinning} samples is compared.` : "", end ?? ""].filter(Boolean).join(" ");
+  const [first, ...more] = best.job_ids;
+  return [h("p", { class: "big" }, sentence),
+    heldBack.length > 0 ? h("p", {}, heldBack.join(" ")) : null,
+    h("p", {}, compared),
+    missed || remarks.length > 0 ? h("ul", { class: "trouble" }, [missed, ...remarks].filter(Boolean)
+      .map((remark) => h("li", {}, remark))) : null,
+    first ? h("p", { class: "actions" },
+      h("a", { class: "button main", href: routeTo("jobs", first, { with: more.slice(0, 5).join(",") }) },
+        best.job_ids.length === 1 ? "Best job" : "Best jobs"),
+      h("span", { class: "quiet small" }, `Point ${best.point}, sum of squares ${number(best.sum_of_squares)}, `
+        + `${plural(best.job_ids.length, "job")}`)) : null].filter((each) => each !== null);
+}
+
+/// Table in a card with a name.
+function tableCard(title, help, head, rows) {
+  return h("section", { class: "card" }, h("h2", {}, title), help ? h("p", { class: "quiet small" }, help) : null,
+    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
+      h("table", {}, h("thead", {}, h("tr", {}, head)), h("tbody", {}, rows))));
+}
+
+const heading = (text, look = "number") => h("th", { scope: "col", class: look }, text);
+
+/// Errors of the signals, fitted and held back; null before there are any.
+/** @param {Api.Fit} fit */
+export function errorsCard({ signals, measurement_ids: measurements }) {
+  if (signals.length === 0) return null;
+  const rows = signals.flatMap((signal) => [["fitted", signal.fitted], ["held back", signal.held_back]]
+    .flatMap(([use, error]) => (error && typeof error === "object" ? [h("tr", {},
+      h("td", {}, nameOfSignal(signal, signals, measurements)), h("td", {}, use),
+      [error.samples, error.rms, 100 * error.relative_rms, error.measured_peak, error.predicted_peak]
+        .map((value) => h("td", { class: "number" }, number(value))), h("td", {}, unitOf(signal.channel) || "1"))]
+      : [])));
+  return tableCard("Prediction errors", "RMS of predicted less measured, in the signal's unit and over the RMS of the "
+    + "measured signal about its mean.", [heading("Signal", ""), heading("Samples", ""), heading("Number"),
+    heading("RMS"), heading("Relative RMS [%]"), heading("Measured peak"), heading("Predicted peak"),
+    heading("Unit", "")], rows);
+}
+
+/// Correlation of the parameters; null of one parameter, and before it is known.
+/** @param {Api.Fit} fit */
+export function correlationCard({ correlation, parameters }) {
+  if (!correlation || parameters.length < 2) return null;
+  const names = parameters.map(({ path }) => nameOfVariable(path));
+  const isStrong = (value, i, j) => i !== j && Math.abs(value ?? 0) > strong;
+  const rows = correlation.map((row, i) => h("tr", {}, h("th", { scope: "row" }, names[i]),
+    row.map((value, j) => h("td", { class: isStrong(value, i, j) ? "number marked" : "number" }, number(value, 2)))));
+  return tableCard("Correlation", `Parameters with a correlation beyond ±${strong}, which are marked, do nearly the same `
+    + "to the signals.", [heading("Parameter", ""), ...names.map((name) => heading(name))], rows);
+}
