@@ -84,6 +84,7 @@ set(page_files
   scene/stage.js
   scene/three.js
   scene/upright.js
+  study/chosen.js
   study/data.js
   study/executors.js
   study/failures.js

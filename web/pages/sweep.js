@@ -9,6 +9,7 @@ import { quantityChoice } from "/core/quantities.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, summaryOf } from "/analysis/paper.js";
+import { drawChosen } from "/study/chosen.js";
 import { metricsOf, usualMetric, valuesOf } from "/study/data.js";
 import { Failures } from "/study/failures.js";
 import { heatMap } from "/study/heat_map.js";
@@ -312,13 +313,6 @@ export class SweepPage {
   }
 
   drawChosen() {
-    const { ids } = this.selection;
-    this.chosen.hidden = ids.length === 0;
-    const [first, ...more] = ids;
-    this.chosen.replaceChildren(h("span", {}, `${plural(ids.length, "job")} selected`),
-      ids.length > 0 && ids.length <= 6
-        ? h("a", { class: "button main", href: routeTo("jobs", first, { with: more.join(",") }) },
-          ids.length === 1 ? "Open" : "Overlay") : "",
-      h("button", { onclick: () => this.selection.set([]) }, "Clear selection"));
+    drawChosen(this.chosen, this.selection);
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows of a sweep as a table: sorted by any column, a page at a time.
 import { h } from "/core/dom.js";
-import { nameOf, number, unitOf } from "/core/format.js";
+import { number, titleOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
 import { sortedBy, valueOf, valuesOf } from "/study/data.js";
@@ -10,9 +10,16 @@ import { missingText } from "/study/missing.js";
 const pageSize = 50;
 
 export class ResultTable {
-  /** @param {SweepPage} sweep */
-  constructor(sweep) {
+  /// @param noun     for a row
+  /// @param titleOf  of a column
+  /**
+   * @param {SweepPage} sweep
+   * @param {{ noun?: string, titleOf?: (column: string) => string }} more
+   */
+  constructor(sweep, { noun = "job", titleOf: titleOfColumn = titleOf } = {}) {
     this.sweep = sweep;
+    this.noun = noun;
+    this.titleOf = titleOfColumn;
     this.order = { column: "", descending: false };
     this.page = 0;
     this.onlySelected = false;
@@ -61,7 +68,7 @@ export class ResultTable {
     this.back.disabled = this.page === 0;
     this.next.disabled = this.page >= pages - 1;
     this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} `
-      + `of ${this.sweep.rows.length.toLocaleString("en")} jobs`;
+      + `of ${this.sweep.rows.length.toLocaleString("en")} ${this.noun}s`;
   }
 
   /// Shows why jobs that succeeded have no value of the metric.
@@ -84,12 +91,11 @@ export class ResultTable {
   heading(column) {
     const sorted = this.order.column === column;
     const arrow = sorted ? (this.order.descending ? " ▼" : " ▲") : "";
-    const unit = unitOf(column);
     const { metrics } = this.sweep;
     return h("th", { scope: "col", class: this.lookOf(column),
       "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
       h("button", { "data-column": column, ...(metrics.includes(column) ? defines("metrics", column) : {}),
-        onclick: () => this.sortBy(column) }, `${nameOf(column)}${unit ? ` [${unit}]` : ""}${arrow}`));
+        onclick: () => this.sortBy(column) }, `${this.titleOf(column)}${arrow}`));
   }
 
   /** @param {Api.Row} row  @param {string[]} columns */
