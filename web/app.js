@@ -15,6 +15,7 @@ const pages = {
   analyses: () => import("/pages/analyses.js"),
   searches: () => import("/pages/searches.js"),
   wear: () => import("/pages/wear.js"),
+  optimisations: () => import("/pages/optimisations.js"),
   fits: () => import("/pages/fits.js"),
   jobs: () => import("/pages/job.js"),
 };

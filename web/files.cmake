@@ -48,6 +48,7 @@ set(page_files
   pages/fits.js
   pages/job.js
   pages/new_sweep.js
+  pages/optimisations.js
   pages/searches.js
   pages/sweep.js
   pages/sweeps.js
@@ -84,6 +85,8 @@ set(page_files
   scene/stage.js
   scene/three.js
   scene/upright.js
+  study/best_so_far.js
+  study/candidate_scatter.js
   study/chosen.js
   study/data.js
   study/executors.js
@@ -101,6 +104,8 @@ set(page_files
   study/lines.js
   study/log_axes.js
   study/missing.js
+  study/optimisation_answer.js
+  study/optimisation_view.js
   study/parallel.js
   study/selection.js
   study/span.js

@@ -12,15 +12,16 @@ const classes = { name: "name", state: "", jobs: "small", peaks: "peaks", create
 const shownOfId = 7;  // of its letters the last ones: the first tell the time and are much alike
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
+/// Page and name of the kinds of studies, by the first letters of their ids.
+const studyKinds = { sch: ["searches", "search"], fit: ["fits", "fit"], opt: ["optimisations", "optimisation"] };
+
 /// An id in one line: "swp_…f9mqab6".
 const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shownOfId)}`;
 
 /// Link to the study that a sweep belongs to. @param {{ study_id: string | null }} sweep
 export function studyBadge({ study_id: id }) {
   if (!id) return "";
-  if (id.startsWith("fit_")) return h("span", { class: "badge", title: `These jobs are those of the fit ${id}` }, "fit");
-  if (id.startsWith("opt_")) return h("span", { class: "badge", title: `These jobs are those of the optimisation ${id}` }, "optimisation");
-  const [page, text] = id.startsWith("sch_") ? ["searches", "search"] : ["wear", "wear study"];
+  const [page, text] = studyKinds[id.slice(0, id.indexOf("_"))] ?? ["wear", "wear study"];
   return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);
 }
 
