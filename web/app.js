@@ -17,6 +17,7 @@ const pages = {
   wear: () => import("/pages/wear.js"),
   optimisations: () => import("/pages/optimisations.js"),
   fits: () => import("/pages/fits.js"),
+  measurements: () => import("/pages/measurements.js"),
   jobs: () => import("/pages/job.js"),
 };
 

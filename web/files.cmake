@@ -44,9 +44,16 @@ set(page_files
   linkages/rpsup.json
   linkages/rsup.json
   linkages/slider_crank.json
+  measure/measurement_request.js
+  measure/measurement_view.js
+  measure/npz.js
+  measure/preview.js
+  measure/read_files.js
+  measure/upload_form.js
   pages/analyses.js
   pages/fits.js
   pages/job.js
+  pages/measurements.js
   pages/new_sweep.js
   pages/optimisations.js
   pages/searches.js
@@ -60,6 +67,7 @@ set(page_files
   run/fingers.js
   run/ideal.js
   run/labels.js
+  run/measured.js
   run/orbit.js
   run/orbit_drawing.js
   run/overlay.js

@@ -66,7 +66,10 @@ type Chart = Awaited<ReturnType<typeof import("/core/charts.js").makeChart>>;
 /** A curve over time, of one or two channels at its edges. */
 type Trace = {
   job: string; channel: string; envelope?: string[]; name: string; colour: () => string; dash?: number[];
+  measured?: MeasuredCurve;
 };
+/** Curve of a measurement, whose id stands in the place of the job's: factor * x(t - shift) + offset. */
+type MeasuredCurve = { run: number; factor: number; offset: number; shift: number };
 type TimeWindow = import("/run/time_window.js").TimeWindow;
 
 /** Item of a list of studies. */

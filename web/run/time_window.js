@@ -2,28 +2,29 @@
 // The stretch of time that is looked at, and the instant pointed at: the same for all plots of a job.
 
 export class TimeWindow extends EventTarget {
-  from = 0;
-  instant = 0;
-
   /// @param end   of the run [s]
   /// @param least the shortest stretch that makes sense [s]
-  /** @param {number} end  @param {number} least */
-  constructor(end, least) {
+  /// @param start of the run [s]
+  /** @param {number} end  @param {number} least  @param {number} start */
+  constructor(end, least, start = 0) {
     super();
+    this.start = start;
     this.end = end;
     this.least = least;
+    this.from = start;
     this.to = end;
+    this.instant = start;
   }
 
   get length() { return this.to - this.from; }
 
-  get isWhole() { return this.from === 0 && this.to === this.end; }
+  get isWhole() { return this.from === this.start && this.to === this.end; }
 
   /// Looks at another stretch; one outside the run is moved into it.
   /** @param {number} from  @param {number} to */
   set(from, to) {
-    const length = Math.min(Math.max(to - from, this.least), this.end);
-    const start = Math.min(Math.max(from, 0), this.end - length);
+    const length = Math.min(Math.max(to - from, this.least), this.end - this.start);
+    const start = Math.min(Math.max(from, this.start), this.end - length);
     if (!Number.isFinite(start) || (start === this.from && start + length === this.to)) return;
     this.from = start;
     this.to = start + length;
@@ -31,7 +32,7 @@ export class TimeWindow extends EventTarget {
     this.dispatchEvent(new Event("change"));
   }
 
-  reset() { this.set(0, this.end); }
+  reset() { this.set(this.start, this.end); }
 
   /// @param factor  below 1 looks closer  @param about  the instant that stays in its place
   zoom(factor, about = (this.from + this.to) / 2) {
@@ -42,7 +43,7 @@ export class TimeWindow extends EventTarget {
 
   /** @param {number} instant */
   pointAt(instant) {
-    this.instant = Math.min(Math.max(instant, 0), this.end);
+    this.instant = Math.min(Math.max(instant, this.start), this.end);
     this.dispatchEvent(new Event("instant"));
   }
 }
