@@ -68,6 +68,7 @@ set(page_files
   run/ideal.js
   run/labels.js
   run/measured.js
+  run/measurement_picker.js
   run/orbit.js
   run/orbit_drawing.js
   run/overlay.js

@@ -12,6 +12,8 @@ import { idealOf, isIdeal } from "/run/ideal.js";
 import { motionCard } from "/analysis/motion.js";
 import { wearCard } from "/analysis/wear.js";
 import { orbit } from "/run/orbit.js";
+import { findOverlays, readOverlays, writeOverlays } from "/run/measured.js";
+import { measurementPicker } from "/run/measurement_picker.js";
 import { overlayPicker } from "/run/overlay.js";
 import { peakNote } from "/run/peaks.js";
 import { plotCard, tracesOf } from "/run/plot_card.js";
@@ -26,6 +28,7 @@ const formats = ["csv", "json", "npz"];
 const isWaiting = (state) => state === "queued" || state === "running";
 const sliderAcceleration = { channel: "slider_acceleration_m_s2",
   envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
+const energies = ["kinetic_energy_j", "potential_energy_j", "drive_work_j"];
 const pollMs = 1000;
 const sweepPolls = 5;  // its sweep is asked for with every fifth
 const rememberMs = 400;  // browsers refuse to change the address many times a second
@@ -53,6 +56,9 @@ class JobPage {
   acceleration = sliderAcceleration;
   /** @type {AbortController | undefined} */
   mainLife;
+  /// Curves of measurements, each in the plot of its channel.
+  /** @type {Trace[]} */
+  measured = [];
 
   /**
    * @param {Api.Job[]} jobs
@@ -69,6 +75,7 @@ class JobPage {
     const { duration_s: end, output_rate_hz: rate } = this.job.parameters;
     this.times = new TimeWindow(end, Math.min(end, 5 / rate));
     this.added = (query.get("channels") ?? "").split(",").filter(Boolean);
+    this.overlays = readOverlays(query.get("measured") ?? "");
   }
 
   head() {
@@ -96,7 +103,9 @@ class JobPage {
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
       h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back,
         this.jobs.length > 1 ? [` · overlaid with ${this.jobs.length - 1} more · `,
-          h("a", { href: routeTo("jobs", job.id) }, "this job only")] : "")), links), failure].filter(Boolean);
+          h("a", { href: routeTo("jobs", job.id) }, "this job only")] : "",
+        this.overlays.length > 0 ? [" · measured signals laid over · ", h("a", { href: this.addressWith([]) },
+          "without them")] : "")), links), failure].filter(Boolean);
   }
 
   drawState() {
@@ -139,13 +148,20 @@ class JobPage {
     if (this.query.has("t")) this.times.pointAt(Number(this.query.get("t")) || 0);
     const remember = seldom(() => this.signal.aborted || this.remember(), rememberMs);
     for (const event of ["change", "instant"]) this.times.addEventListener(event, remember, { signal: this.signal });
-    const all = Object.keys(await findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal));
+    const [first, measured] = await Promise.all([findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal),
+      findOverlays(this.overlays, this.jobs.length, this.signal)]);
+    const all = Object.keys(first);
+    this.measured = measured;
     // The poses are for drawing.
     const columns = all.filter((name) => name !== "t_s" && !name.startsWith("pose_"));
     const described = isDescribed(this.job);
     this.acceleration = described ? { channel: mainAcceleration(columns) } : sliderAcceleration;
     const joints = clearanceJoints(this.job, columns);
     const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
+    const inCards = [this.acceleration.channel, ...joints.map(({ prefix }) => `${prefix}contact_force_n`), ...drives,
+      ...energies];
+    this.added.push(...new Set(measured.map(({ channel }) => channel)
+      .filter((channel) => columns.includes(channel) && !inCards.includes(channel) && !this.added.includes(channel))));
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
     const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "",
@@ -153,7 +169,7 @@ class JobPage {
     const plots = [this.main,
       joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
       drives.length > 0 ? this.card("Drive torque and force", drives) : null,
-      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay()),
+      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay(), this.measurements(columns)),
       motionCard(this.job, columns, this.signal),
       !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
     const side = [sceneCard(this.job, all, this.times, this.signal),
@@ -169,7 +185,7 @@ class JobPage {
    * @param {Partial<Parameters<typeof plotCard>[1]>} more
    */
   card(title, channels, more = {}) {
-    return plotCard(title, { traces: tracesOf(this.jobs, channels), note: peakNote(this.jobs, channels),
+    return plotCard(title, { traces: [...tracesOf(this.jobs, channels), ...this.measuredOf(channels)], note: peakNote(this.jobs, channels),
       times: this.times, height: 220, signal: this.signal, ...more });
   }
 
@@ -185,7 +201,7 @@ class JobPage {
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
     this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration",
-      { traces: [...behind, ...tracesOf(this.jobs, [acceleration])], note: peakNote(this.jobs, [acceleration.channel]),
+      { traces: [...behind, ...tracesOf(this.jobs, [acceleration]), ...this.measuredOf([acceleration.channel])], note: peakNote(this.jobs, [acceleration.channel]),
         times: this.times, height: 320, signal, tools }));
   }
 
@@ -197,6 +213,28 @@ class JobPage {
       button.disabled = false;
       if (error.name !== "AbortError") notify(error.message, "trouble");
     }
+  }
+
+  /** @param {string[]} channels */
+  measuredOf(channels) {
+    return this.measured.filter(({ channel }) => channels.includes(channel));
+  }
+
+  /// Address of this page with other measured signals.
+  /** @param {import("/run/measured.js").Overlay[]} overlays */
+  addressWith(overlays) {
+    const { query } = readRoute();
+    query.set("measured", writeOverlays(overlays));
+    return routeTo("jobs", this.job.id, Object.fromEntries(query));
+  }
+
+  /// Filled when the measurements are known. @param columns  of the job
+  /** @param {string[]} columns */
+  measurements(columns) {
+    const place = h("span", { class: "actions" });
+    measurementPicker(columns, (overlay) => { location.hash = this.addressWith([...this.overlays, overlay]); },
+      this.signal).then((picker) => place.append(...picker)).catch(() => {});
+    return place;
   }
 
   /// Filled when the other jobs of the sweep are known.
@@ -211,7 +249,7 @@ class JobPage {
   }
 
   energy() {
-    const card = this.card("Energy balance", ["kinetic_energy_j", "potential_energy_j", "drive_work_j"]);
+    const card = this.card("Energy balance", energies);
     card.append(lossesCard(this.job));
     return card;
   }
@@ -240,7 +278,7 @@ class JobPage {
     const { times } = this;
     const short = (value) => Number(value.toPrecision(7));
     const window = times.isWhole ? {} : { from: short(times.from), to: short(times.to) };
-    rememberQuery({ with: this.query.get("with"), channels: this.added.join(","), ...window,
+    rememberQuery({ with: this.query.get("with"), measured: writeOverlays(this.overlays), channels: this.added.join(","), ...window,
       t: times.instant > 0 ? short(times.instant) : "" });
   }
 }
