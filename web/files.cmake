@@ -30,10 +30,16 @@ set(page_files
   form/estimate.js
   form/field.js
   form/fields.js
+  form/fit_form.js
+  form/fitted_measurements.js
+  form/from_sweep.js
+  form/list_fields.js
+  form/optimisation_form.js
   form/request.js
   form/request_form.js
   form/search_form.js
   form/study_form.js
+  form/variable_fields.js
   form/wear_form.js
   linkages/bricard.json
   linkages/double_pendulum.json

@@ -8,20 +8,21 @@ import { allowed, fieldsOf } from "/form/fields.js";
 import { buildRequest, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
-/// Shows the form of a kind of studies. @param example  a request that stands in it at first
+/// Shows the form of a kind of studies. @param begin  finds the request that stands in it at first
 /**
  * @param {HTMLElement} main
  * @param {typeof StudyForm} Form
- * @param {any} example
+ * @param {(query: URLSearchParams, signal: AbortSignal) => any} begin
  * @param {URLSearchParams} query
  * @param {AbortSignal} signal
  */
-export async function showStudyForm(main, Form, example, query, signal) {
+export async function showStudyForm(main, Form, begin, query, signal) {
   document.title = `RPSUP: ${Form.title.toLowerCase()}`;
   const from = query.get("from");
-  const [parameters, schemas, request] = await Promise.all([parameterSchema(), requestSchemas(signal),
-    from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {} : example]);
-  const form = new Form(fieldsOf(parameters), schemas, request);
+  const [parameters, schemas, request, more] = await Promise.all([parameterSchema(), requestSchemas(signal),
+    from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {} : begin(query, signal),
+    Form.load(signal)]);
+  const form = new Form(fieldsOf(parameters), schemas, request, more);
   main.replaceChildren(h("h1", {}, Form.title),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Load example"),
       h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Empty form")),
@@ -37,8 +38,13 @@ export class StudyForm extends RequestForm {
   static title = "";
   static schema = "";
 
-  /** @param {any[]} fields  @param {Record<string, any>} schemas  @param {any} request */
-  constructor(fields, schemas, request) {
+  /// Finds what a form needs beside its request.
+  /** @param {AbortSignal} _signal  @returns {Promise<any>} */
+  static async load(_signal) { return null; }
+
+  /// @param _more  that load has found
+  /** @param {any[]} fields  @param {Record<string, any>} schemas  @param {any} request  @param {any} [_more] */
+  constructor(fields, schemas, request, _more) {
     super(fields, { ...readRequest(fields, request), values: {} });
     const kind = /** @type {typeof StudyForm} */ (this.constructor);
     this.schema = schemas[kind.schema].properties;

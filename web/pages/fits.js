@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits: their list, the form of a new one, and the view of one.
 import { fits } from "/core/api.js";
+import { FitForm } from "/form/fit_form.js";
+import { fitFrom } from "/form/from_sweep.js";
+import { showStudyForm } from "/form/study_form.js";
 import { FitView } from "/study/fit_view.js";
 import { showStudies } from "/study/study_list.js";
 import { showStudy } from "/study/study_view.js";
@@ -16,6 +19,7 @@ const kind = {
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */
-export function show(main, { id, signal }) {
+export function show(main, { id, query, signal }) {
+  if (id === "new") return showStudyForm(main, FitForm, fitFrom, query, signal);
   return id ? showStudy(main, FitView, id, signal) : showStudies(main, kind, signal);
 }

@@ -34,6 +34,6 @@ const kind = {
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export function show(main, { id, query, signal }) {
-  if (id === "new") return showStudyForm(main, SearchForm, example, query, signal);
+  if (id === "new") return showStudyForm(main, SearchForm, () => example, query, signal);
   return id ? showStudy(main, LimitView, id, signal) : showStudies(main, kind, signal);
 }

@@ -52,6 +52,7 @@ export class SweepPage {
   lines = h("div", { class: "chart tall" });
   parallel = h("div", { class: "chart tall" });
   help = h("p", { class: "quiet small" });
+  optimise = h("a", { class: "button" }, "Optimise");
   isFollowed = false;
   /** @type {HTMLButtonElement} */
   cancel;
@@ -252,6 +253,7 @@ export class SweepPage {
     rememberQuery({ metric, x, y, panel, x_scale: xScale === "linear" ? xScale : "",
       metric_scale: metricScale === "log" ? metricScale : "", jobs, with: this.others?.id });
     this.drawChosen();
+    this.drawLinks();
     this.drawAll();
   }
 
@@ -277,6 +279,7 @@ export class SweepPage {
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
       h("a", { class: "button", href: resultsUrl(id, { format: "csv" }), download: `${name || id}.csv` }, "CSV"),
       h("a", { class: "button", href: routeTo("analyses", id) }, "Analysis"),
+      h("a", { class: "button", href: routeTo("fits", "new", { sweep: id }) }, "Fit"), this.optimise,
       h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Duplicate"));
   }
 
@@ -284,6 +287,7 @@ export class SweepPage {
     // A scale was chosen for the axis or the metric that it stood at.
     const scales = { x: { xScale: "" }, metric: { metricScale: "" } };
     const set = (key) => (value) => { Object.assign(this.view, { [key]: value, ...scales[key] }); this.changed(); };
+    this.drawLinks();
     const named = (names) => names.map((name) => [name, titleOf(name)]);
     const axes = named(this.axes);
     this.pickers.replaceChildren(quantityChoice("Metric", "metrics", this.metrics, this.view.metric, set("metric")),
@@ -291,6 +295,11 @@ export class SweepPage {
       choice("y axis / series", [["", "none"], ...axes], this.view.y, set("y")),
       choice("Facet by", [["", "none"], ...axes], this.view.panel, set("panel")), this.compare);
     this.offerComparison();
+  }
+
+  /// An optimisation begins with the metric that is looked at.
+  drawLinks() {
+    this.optimise.href = routeTo("optimisations", "new", { sweep: this.sweep.id, metric: this.view.metric });
   }
 
   async offerComparison() {

@@ -25,6 +25,6 @@ const kind = {
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export function show(main, { id, query, signal }) {
-  if (id === "new") return showStudyForm(main, WearForm, example, query, signal);
+  if (id === "new") return showStudyForm(main, WearForm, () => example, query, signal);
   return id ? showStudy(main, WearView, id, signal) : showStudies(main, kind, signal);
 }
