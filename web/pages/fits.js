@@ -4,6 +4,7 @@ import { fits } from "/core/api.js";
 import { FitForm } from "/form/fit_form.js";
 import { fitFrom } from "/form/from_sweep.js";
 import { showStudyForm } from "/form/study_form.js";
+import { shortAnswerOf } from "/study/fit_answer.js";
 import { FitView } from "/study/fit_view.js";
 import { showStudies } from "/study/study_list.js";
 import { showStudy } from "/study/study_view.js";
@@ -15,7 +16,7 @@ const kind = {
   aim: { heading: "Parameters",
     /** @param {Api.Listed<"/v1/fits">} fit */
     textOf: ({ variables }) => variables.map(nameOfVariable).join(", ") },
-  none: "No fits yet.", begin: "New fit",
+  answerOf: shortAnswerOf, none: "No fits yet.", begin: "New fit",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

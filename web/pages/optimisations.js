@@ -5,6 +5,7 @@ import { nameOf } from "/core/format.js";
 import { optimisationFrom } from "/form/from_sweep.js";
 import { OptimisationForm } from "/form/optimisation_form.js";
 import { showStudyForm } from "/form/study_form.js";
+import { shortAnswerOf } from "/study/optimisation_answer.js";
 import { OptimisationView } from "/study/optimisation_view.js";
 import { showStudies } from "/study/study_list.js";
 import { showStudy } from "/study/study_view.js";
@@ -28,7 +29,7 @@ function aimOf({ objectives, variables }) {
 const kind = {
   api: optimisations, route: "optimisations", title: "Optimisations",
   question: "Values of parameters for which metrics are least or largest.", listName: "Optimisations",
-  aim: { heading: "Goal", textOf: aimOf }, none: "No optimisations yet.", begin: "New optimisation",
+  aim: { heading: "Goal", textOf: aimOf }, answerOf: shortAnswerOf, none: "No optimisations yet.", begin: "New optimisation",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

@@ -29,6 +29,8 @@ function optionOf(view) {
   const others = shown.filter((row) => !row.on_front);
   const front = shown.filter((row) => row.on_front).sort((a, b) => a[x] - b[x]);
   const chosen = shown.filter((row) => selection.has(row.job_id));
+  // Between two points of the front the better value of x is that of one of them.
+  const step = view.study.objectives.find(({ metric }) => metric === x)?.goal === "maximise" ? "start" : "end";
   const isFront = view.metrics.length === 2 && view.metrics.includes(x) && view.metrics.includes(y);
   const axis = (column, gap) => ({ ...fittedAxis, name: titleOfMetric(column), nameLocation: "middle", nameGap: gap,
     ...axisLook() });
@@ -43,7 +45,7 @@ function optionOf(view) {
       series("infeasible", others.filter(({ state }) => state === "infeasible"),
         { symbol: "emptyTriangle", itemStyle: { color: lineColour(1) } }),
       series(view.hasFront ? "Pareto front" : "best", front, { symbolSize: 11, itemStyle: { color: lineColour(0) } }),
-      ...(isFront ? [{ type: "line", name: "Pareto front", silent: true, symbol: "none", step: "end",
+      ...(isFront ? [{ type: "line", name: "Pareto front", silent: true, symbol: "none", step,
         color: lineColour(0), data: front.map((row) => [row[x], row[y]]) }] : []),
       { type: "scatter", name: "selected", silent: true, symbolSize: 17, z: 5, data: dataOf(chosen),
         itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 } },

@@ -3,6 +3,7 @@
 import { h } from "/core/dom.js";
 import { nameOf, number, plural, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
+import { writeOverlays } from "/run/measured.js";
 import { nameOfSignal } from "/study/fit_signals.js";
 import { intervalText } from "/study/interval_bar.js";
 import { nameOfVariable, unitOfVariable } from "/study/variables.js";
@@ -25,13 +26,29 @@ function sentenceOf({ path, value, profile, linearised }) {
   return `${nameOfVariable(path).toLowerCase()} ${number(value, 5)}${unit ? ` ${unit}` : ""}${sure}`;
 }
 
+/// The values in one line; why there are none, if there are none.
+/** @param {Api.Fit} fit */
+export function shortAnswerOf({ parameters, best, error }) {
+  const found = parameters.map(sentenceOf).join("; ");
+  return best ? found.charAt(0).toUpperCase() + found.slice(1) : error ?? "–";
+}
+
+/// The measured signals of the first run, which the first job of a point is compared with.
+/** @param {Api.Fit} fit */
+function overlaysOf({ signals, request }) {
+  const [first] = signals;
+  return signals.filter(({ measurement_id: id, run }) => id === first.measurement_id && run === first.run)
+    .map(({ measurement_id: id, run, channel }) => ({ id, run, channel,
+      shift: request.measurements.find((each) => each.id === id)?.time_shift_s ?? 0 }));
+}
+
 /// What came of a fit in sentences, what the signals do not tell, and the jobs of the best point.
 /** @param {Api.Fit} fit */
-export function answerOf({ state, parameters, signals, basis, divergence, local_end: end, remarks, best, thinning }) {
+export function answerOf(fit) {
+  const { state, parameters, signals, basis, divergence, local_end: end, remarks, best, thinning } = fit;
   if (!best) return [h("p", { class: "quiet" }, state === "running" ? "No point has been computed yet."
     : "No point has a value.")];
-  const found = `${parameters.map(sentenceOf).join("; ")}.`;
-  const sentence = state === "running" ? `So far: ${found}` : found.charAt(0).toUpperCase() + found.slice(1);
+  const sentence = `${state === "running" ? "So far: " : ""}${shortAnswerOf(fit)}.`;
   const heldBack = signals.flatMap(({ channel, held_back: error }) => (error
     ? [`${nameOf(channel)}: what is held back is predicted with an error of `
       + `${number(100 * error.relative_rms, 3)} % of the signal.`] : []));
@@ -41,13 +58,14 @@ export function answerOf({ state, parameters, signals, basis, divergence, local_
   const compared = [divergence?.message ?? (basis ? bases[basis] : ""),
     thinning > 1 ? `One of ${thinning} samples is compared.` : "", end ?? ""].filter(Boolean).join(" ");
   const [first, ...more] = best.job_ids;
+  const measured = writeOverlays(overlaysOf(fit));
   return [h("p", { class: "big" }, sentence),
     heldBack.length > 0 ? h("p", {}, heldBack.join(" ")) : null,
     h("p", {}, compared),
     missed || remarks.length > 0 ? h("ul", { class: "trouble" }, [missed, ...remarks].filter(Boolean)
       .map((remark) => h("li", {}, remark))) : null,
     first ? h("p", { class: "actions" },
-      h("a", { class: "button main", href: routeTo("jobs", first, { with: more.slice(0, 5).join(",") }) },
+      h("a", { class: "button main", href: routeTo("jobs", first, { with: more.slice(0, 5).join(","), measured }) },
         best.job_ids.length === 1 ? "Best job" : "Best jobs"),
       h("span", { class: "quiet small" }, `Point ${best.point}, sum of squares ${number(best.sum_of_squares)}, `
         + `${plural(best.job_ids.length, "job")}`)) : null].filter((each) => each !== null);

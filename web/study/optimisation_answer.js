@@ -31,27 +31,33 @@ export function aimOf({ objectives, variables, request, method }) {
   return `${text.charAt(0).toUpperCase()}${text.slice(1)}. Method: ${methods[method]}.`;
 }
 
+/// The answer in one line; why there is none, if there is none.
+/** @param {Api.Optimisation} study */
+export function shortAnswerOf({ best, front, objectives, error }) {
+  if (objectives.length > 1) return `${plural(front.length, "candidate")} on the Pareto front`;
+  if (!best) return error ?? "No feasible candidate";
+  const [{ metric }] = objectives;
+  const at = Object.entries(best.values).map(([path, value]) =>
+    `${nameOf(path).toLowerCase()} ${valueText(path, Number(value))}`).join(", ");
+  return `${nameOf(metric)} ${valueText(metric, Number(best.metrics[metric]))} with ${at}`;
+}
+
 /// The answer in sentences, with a link to the best job.
 /** @param {Api.Optimisation} study  @returns {HTMLElement[]} */
-export function answerOf({ state, best, best_repeats: repeats, front, starts, objectives, lost_reasons: reasons }) {
+export function answerOf(study) {
+  const { state, best, best_repeats: repeats, starts, objectives, lost_reasons: reasons } = study;
   const lost = Object.entries(reasons).map(([reason, count]) => `${plural(count, "candidate")}: ${reason}`).join("; ");
   const trouble = lost ? [h("p", { class: "trouble" }, `Candidates without a value: ${lost}.`)] : [];
-  const soFar = state === "running" ? "So far: " : "";
-  if (objectives.length > 1) {
-    return [h("p", { class: "big" }, `${soFar}${plural(front.length, "candidate")} on the Pareto front.`), ...trouble];
-  }
+  const told = h("p", { class: "big" }, `${state === "running" ? "So far: " : ""}${shortAnswerOf(study)}.`);
+  if (objectives.length > 1) return [told, ...trouble];
   if (!best) {
     return [h("p", { class: "big" }, state === "running" ? "No feasible candidate yet." : "No feasible candidate."),
       ...trouble];
   }
-  const [{ metric }] = objectives;
-  const at = Object.entries(best.values).map(([path, value]) =>
-    `${nameOf(path).toLowerCase()} ${valueText(path, Number(value))}`).join(", ");
   const [job, ...more] = best.job_ids;
   const ended = starts.map(({ end, candidates, generations }) =>
     `${ends[end]} after ${plural(candidates, "candidate")} in ${plural(generations, "generation")}`).join("; ");
-  return [h("p", { class: "big" }, `${soFar}${nameOf(metric)} ${valueText(metric, Number(best.metrics[metric]))} with ${at}.`),
-    h("p", {}, `${plural(starts.length, "start")}: ${ended}.`
+  return [told, h("p", {}, `${plural(starts.length, "start")}: ${ended}.`
       + `${starts.length > 1 ? ` ${repeats} of ${starts.length} came within 1 % of the best.` : ""}`),
     h("p", { class: "actions" },
       h("a", { class: "button main", href: routeTo("jobs", job, { with: more.slice(0, 5).join(",") }) },

@@ -7,7 +7,8 @@ import { routeTo } from "/core/route.js";
 /**
  * @template {Listed} Item
  * @typedef {{ api: Studies<any, Item, any>, route: string, title: string, question: string, listName: string,
- *   aim: { heading: string, textOf: (study: Item) => string }, none: string, begin: string }} StudyKind
+ *   aim: { heading: string, textOf: (study: Item) => string },
+ *   answerOf?: (study: any) => string, none: string, begin: string }} StudyKind
  */
 
 const pollMs = 4000;
@@ -21,7 +22,9 @@ const pollMs = 4000;
 export async function showStudies(main, kind, signal) {
   document.title = `RPSUP: ${kind.title.toLowerCase()}`;
   const body = h("tbody");
-  const headings = ["Name", "State", kind.aim.heading, "Created"];
+  const headings = ["Name", "State", kind.aim.heading, ...(kind.answerOf ? ["Answer"] : []), "Created"];
+  /** @type {Map<string, string>} */
+  const answers = new Map();  // of studies that have ended
   const status = h("p", { class: "quiet", role: "status" });
   const table = h("div", { class: "scroll card", tabindex: 0, role: "region", "aria-label": kind.listName },
     h("table", {}, h("thead", {}, h("tr", {}, headings.map((text) => h("th", { scope: "col" }, text)))), body));
@@ -32,13 +35,25 @@ export async function showStudies(main, kind, signal) {
   const row = (study) =>
     h("tr", {}, h("td", { class: "name" }, h("a", { href: routeTo(kind.route, study.id) }, study.name || study.id)),
     h("td", { class: study.state }, study.state), h("td", {}, kind.aim.textOf(study)),
+    kind.answerOf ? h("td", { "data-answer": study.id }, answers.get(study.id) ?? "–") : null,
     h("td", { class: "fixed" }, moment(study.created_at)));
+  /// Answers stand in no listing: each is asked for once.
+  /** @param {Item[]} items */
+  const learn = async (items) => {
+    for (const { id, state } of items) {
+      if (state === "running") answers.delete(id);
+      if (!kind.answerOf || state === "running" || answers.has(id)) continue;
+      answers.set(id, kind.answerOf(await kind.api.find(id, signal)));
+      body.querySelector(`[data-answer="${id}"]`)?.replaceChildren(answers.get(id) ?? "");
+    }
+  };
   const refresh = async () => {
     try {
       const { items } = await kind.api.list({ limit: 100 }, signal);
       body.replaceChildren(...items.map(row));
       table.hidden = items.length === 0;
       status.textContent = items.length === 0 ? kind.none : "";
+      await learn(items);
     } catch (error) {
       if (error.name !== "AbortError") status.textContent = `${error.message} Trying again …`;
     }

@@ -37,6 +37,7 @@ export class StudyView {
   status = h("p", { role: "status" });
   body = h("tbody");
   isRemoved = false;
+  reloadTook = 0;
   /** @type {HTMLButtonElement} */
   cancel;
   /** @type {HTMLButtonElement} */
@@ -118,7 +119,8 @@ export class StudyView {
 
   follow() {
     if (this.study.state !== "running") return;
-    const reload = seldom(() => this.reload(), reloadMs);
+    // What takes long is fetched seldom.
+    const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
     followStudy(this.kind.api, this.study.id, {
       progress: ({ state, counts, progress }) =>
         { Object.assign(this.study, { state, counts, progress }); this.drawHead(); reload(); },
@@ -129,10 +131,12 @@ export class StudyView {
   async reload() {
     if (this.isRemoved) return;
     try {
+      const start = performance.now();
       this.study = /** @type {Kept} */ (await this.kind.api.find(this.study.id, this.signal));
       await this.findMore();
       this.draw();
       for (const chart of this.drawn) chart?.draw();
+      this.reloadTook = performance.now() - start;
     } catch (error) {
       if (error.name !== "AbortError") notify(error.message, "trouble");
     }
