@@ -27,10 +27,9 @@ function inPageColours(option) {
       borderColor: colour("line"), textStyle: text, ...option.tooltip } };
 }
 
-/// Option of a chart without data. @param why  reason, in a line of its own
-export function nothingYet(why = "") {
-  return { title: { text: ["No job has a value of this metric.", why].filter(Boolean).join("\n"), left: "center",
-    top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
+/// Option of a chart without data. @param why  reason, in a line of its own  @param told  the first line
+export function nothingYet(why = "", told = "No job has a value of this metric.") {
+  return { title: { text: [told, why].filter(Boolean).join("\n"), left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
 }
 
 /// Colours and lines of an axis.

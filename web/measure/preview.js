@@ -35,7 +35,7 @@ function thinned(time, values) {
 /** @param {Signals | null} shown */
 function optionOf(shown) {
   const signals = shown?.signals.slice(0, mostDrawn) ?? [];
-  if (!shown || signals.length === 0) return { title: { ...nothingYet().title, text: "No channel chosen." } };
+  if (!shown || signals.length === 0) return nothingYet("", "No channel chosen.");
   const part = 90 / signals.length;
   const look = axisLook();
   const isLast = (index) => index === signals.length - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An objective over the candidates of an optimisation, with the best feasible value so far.
-import { axisLook, makeChart } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { number, titleOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { spansDecades } from "/study/span.js";
@@ -18,7 +18,7 @@ export function bestSoFar(element, view, signal) {
 /** @param {import("/study/optimisation_view.js").OptimisationView} view */
 function optionOf({ candidates, objective, study }) {
   const computed = candidates.filter((row) => typeof row[objective] === "number");
-  if (computed.length === 0) return null;
+  if (computed.length === 0) return nothingYet("", "No candidate has a value.");
   const isMost = study.objectives.find(({ metric }) => metric === objective)?.goal === "maximise";
   /** @type {number[][]} */
   const best = [];

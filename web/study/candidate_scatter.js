@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candidates of an optimisation over two of their numbers, with the Pareto front; a click selects.
-import { axisLook, makeChart } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { number } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { titleOfMetric } from "/study/optimisation_answer.js";
@@ -23,7 +23,7 @@ export function candidateScatter(element, view, signal) {
 function optionOf(view) {
   const { candidates, x, y, selection } = view;
   const shown = candidates.filter((row) => typeof row[x] === "number" && typeof row[y] === "number");
-  if (shown.length === 0) return null;
+  if (shown.length === 0) return nothingYet("", "No candidate has both values.");
   const dataOf = (rows) => rows.map((row) => ({ value: [row[x], row[y], row.candidate], job: row.job_id }));
   const series = (name, rows, look) => ({ type: "scatter", name, symbolSize: 8, data: dataOf(rows), ...look });
   const others = shown.filter((row) => !row.on_front);

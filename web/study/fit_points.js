@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of a fit in the order in which they were tried: their sums of squares, and the values of the best so far.
-import { axisLook, makeChart } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { number } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
+import { legendOf } from "/study/legend.js";
 import { nameOfVariable, titleOfVariable, unitOfVariable } from "/study/variables.js";
 
 /** @typedef {Api.Schemas["FitPointRows"][number] & { point: number, stage: string }} Point */
 
 /// Index of the best point among the first ones, for each of the points; only points with a sum of squares count.
 /** @param {Point[]} points */
-function bestSoFar(points) {
+export function bestSoFar(points) {
   let best = 0;
   return points.map((point, index) => {
     if (Number(point.sum_of_squares) < Number(points[best].sum_of_squares)) best = index;
@@ -17,9 +18,11 @@ function bestSoFar(points) {
   });
 }
 
+/// Points with a sum of squares.
 /** @param {import("/study/fit_view.js").FitView} view */
-const computed = ({ points }) => points.filter(({ sum_of_squares: sum }) => typeof sum === "number");
+export const computed = ({ points }) => points.filter(({ sum_of_squares: sum }) => typeof sum === "number");
 
+const none = () => nothingYet("", "No point has a value.");
 const pointAxis = () => ({ type: "value", name: "point", nameLocation: "middle", nameGap: 28, minInterval: 1,
   ...axisLook() });
 const grid = { left: 75, right: 20, top: 44, bottom: 50 };
@@ -29,8 +32,9 @@ const grid = { left: 75, right: 20, top: 44, bottom: 50 };
 export function fitConvergence(element, view, signal) {
   return makeChart(element, () => {
     const points = computed(view);
-    if (points.length === 0) return null;
-    return view.shownVariable ? valueOption(view, points, view.shownVariable) : shareOption(view, points);
+    if (points.length === 0) return none();
+    return view.shownVariable ? valueOption(view, points, view.shownVariable)
+      : shareOption(view, points, element.clientWidth);
   }, "Best values over the points of the fit; the table below has the last ones", signal);
 }
 
@@ -39,7 +43,7 @@ export function fitConvergence(element, view, signal) {
 export function fitMisfit(element, view, signal) {
   return makeChart(element, () => {
     const points = computed(view);
-    if (points.length === 0) return null;
+    if (points.length === 0) return none();
     return { grid, legend: { top: 0 }, tooltip: { formatter: textOfPoint },
       xAxis: pointAxis(),
       yAxis: { type: "log", name: "sum of squares", nameLocation: "middle", nameGap: 55, ...logLook() },
@@ -64,13 +68,14 @@ function tried(points, valueOfPoint) {
 }
 
 /// All variables in one chart, each as a part of the way between its bounds.
-/** @param {import("/study/fit_view.js").FitView} view  @param {Point[]} points */
-function shareOption(view, points) {
+/** @param {import("/study/fit_view.js").FitView} view  @param {Point[]} points  @param {number} width */
+function shareOption(view, points, width) {
   const best = bestSoFar(points);
+  const legend = legendOf(view.study.parameters.map(({ path }) => nameOfVariable(path)), width);
   const series = view.study.parameters.map(({ path }, index) =>
     ({ type: "line", step: "end", symbol: "none", name: nameOfVariable(path), color: lineColour(index),
       data: best.map((each, at) => [points[at].point, 100 * view.partOf(path, Number(each[path]))]) }));
-  return { grid, legend: { top: 0 }, xAxis: pointAxis(), tooltip: { trigger: "axis", formatter: (lines) =>
+  return { grid: { ...grid, top: 20 + legend.height }, legend: legend.option, xAxis: pointAxis(), tooltip: { trigger: "axis", formatter: (lines) =>
     [`point ${lines[0].value[0]}`, ...lines.map(({ seriesName, value }) => `${seriesName}: ${number(value[1])} %`)]
       .join("\n") },
   yAxis: { type: "value", min: 0, max: 100, name: "best so far, from lower to upper bound [%]",

@@ -50,7 +50,7 @@ export function fitSignals(element, view, signal) {
 
 /** @param {Sample[]} samples  @param {{ start?: number, end?: number }} zoom */
 function optionOf(samples, zoom) {
-  if (samples.length === 0) return { ...nothingYet(), title: { ...nothingYet().title, text: "No prediction yet." } };
+  if (samples.length === 0) return nothingYet("", "No prediction yet.");
   const { channel } = samples[0];
   const areas = (isNamed) => [["fitted", lineColour(2)], ["held_back", lineColour(4)]].flatMap(([use, fill]) =>
     stretchesOf(samples, /** @type {Sample["use"]} */ (use)).map(([from, to]) =>

@@ -5,7 +5,7 @@ import { choice, h } from "/core/dom.js";
 import { number, plural } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { answerOf, correlationCard, errorsCard, stageNames } from "/study/fit_answer.js";
-import { fitConvergence, fitMisfit } from "/study/fit_points.js";
+import { bestSoFar, computed, fitConvergence, fitMisfit } from "/study/fit_points.js";
 import { fitSignals, nameOfSignal } from "/study/fit_signals.js";
 import { intervalBar, intervalText } from "/study/interval_bar.js";
 import { StudyView } from "/study/study_view.js";
@@ -27,6 +27,7 @@ export class FitView extends StudyView {
   answer = h("div");
   below = h("div");
   signalPicker = h("p", { class: "actions" });
+  predictedBy = h("span", { class: "quiet small" });
   variablePicker = h("p", { class: "actions" });
 
   charts() {
@@ -61,6 +62,14 @@ export class FitView extends StudyView {
     const columns = ["point", "stage", "sum_of_squares", ...this.study.variables];
     this.points = await fits.results(this.study.id, { fields: columns.join(",") }, this.signal);
     await this.findSamples();
+    if (this.study.state === "running") this.#showBestSoFar();
+  }
+
+  /// The service tells the best values at the end of a stage: the points know better ones meanwhile.
+  #showBestSoFar() {
+    const best = bestSoFar(computed(this)).at(-1);
+    if (!best) return;
+    for (const parameter of this.study.parameters) parameter.value = Number(best[parameter.path]);
   }
 
   /// Samples of the signal that is shown, unless they are those of the best point already.
@@ -75,6 +84,7 @@ export class FitView extends StudyView {
 
   draw() {
     super.draw();
+    this.predictedBy.textContent = this.study.best ? `predicted by point ${this.study.best.point}` : "";
     this.answer.replaceChildren(...answerOf(this.study));
     this.below.replaceChildren(...[errorsCard(this.study), correlationCard(this.study)].filter((card) => card !== null));
   }
@@ -90,7 +100,7 @@ export class FitView extends StudyView {
       this.shownSignal = Number(index);
       await this.findSamples();
       this.drawn[2]?.draw();
-    }));
+    }), this.predictedBy);
   }
 
   rows() {
