@@ -50,6 +50,7 @@ set(page_files
   linkages/rpsup.json
   linkages/rsup.json
   linkages/slider_crank.json
+  measure/channel_field.js
   measure/measurement_request.js
   measure/measurement_view.js
   measure/npz.js

@@ -83,14 +83,15 @@ interface Studies<Kept, Item extends Listed, Request> {
   cancel(id: string): Promise<Kept>;
   retry(id: string): Promise<Kept>;
   remove(id: string): Promise<null>;
-  results(id: string, query: Record<string, string | number | undefined>, signal: AbortSignal): Promise<any[]>;
+  results(id: string, query: Record<string, string | number>, signal: AbortSignal): Promise<any[]>;
   resultsUrl(id: string, query?: { format?: "csv" }): string;
   eventsUrl(id: string): string;
 }
 type Searches = Studies<Api.Search, Api.Listed<"/v1/searches">, Api.Body<"/v1/searches">>;
 type WearStudies = Studies<Api.WearStudy, Api.Listed<"/v1/wear-studies">, Api.Body<"/v1/wear-studies">>;
 type Fits = Studies<Api.Fit, Api.Listed<"/v1/fits">, Api.Body<"/v1/fits">>;
-type Optimisations = Studies<Api.Optimisation, Api.Listed<"/v1/optimisations">, Api.Body<"/v1/optimisations">>;
+type Optimisations =
+  Studies<Api.Optimisation, Api.Listed<"/v1/optimisations">, Api.Body<"/v1/optimisations">>;
 type AnyStudies = Searches | WearStudies | Fits | Optimisations;
 
 interface Array<T> {

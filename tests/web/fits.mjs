@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, runSweep, url, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, runSweep, url,
+  visit } from "./visitor.mjs";
 
 after(endVisits);
 const minutes = 60000;
@@ -17,7 +18,8 @@ async function measure() {
   const [{ job_id: id }] = await ask(`/v1/sweeps/${(await runSweep({ name: "rig", parameters: rig,
     sweep: { clearance_mm: [clearance] } })).id}/results`);
   const { columns } = await ask(`/v1/jobs/${id}/trajectory?channels=t_s,slider_acceleration_m_s2`);
-  const noisy = columns.slider_acceleration_m_s2.map((value, index) => value + 0.05 * Math.sin(index * index));
+  const noisy = columns.slider_acceleration_m_s2.map((value, index) =>
+    value + 0.05 * Math.sin(index * index));
   return ["time,acc", ...columns.t_s.map((time, index) => `${time},${noisy[index]}`)].join("\n");
 }
 
@@ -26,7 +28,8 @@ test("a measurement is looked at before it is sent, and faults stand at their ch
   const page = await visit("#/measurements");
   await page.getByText("No measurements yet.").waitFor();
   await page.getByRole("link", { name: "New measurement" }).click();
-  await page.getByLabel("Files").setInputFiles({ name: "rig.csv", mimeType: "text/csv", buffer: Buffer.from(csv) });
+  await page.getByLabel("Files").setInputFiles({ name: "rig.csv", mimeType: "text/csv",
+    buffer: Buffer.from(csv) });
   await page.getByText("1 run, 1 channel, 601 samples in this run").waitFor();
   await page.locator(".chart canvas").waitFor();
   await page.getByRole("button", { name: "Upload" }).click();
@@ -43,7 +46,8 @@ test("a measurement is looked at before it is sent, and faults stand at their ch
   await page.locator(".uplot").waitFor();
   measurement = page.url().match(/mea_\w+/)[0];
   const kept = await ask(`/v1/measurements/${measurement}`);
-  assert.deepEqual(kept.channels.map(({ name, column: from }) => [name, from]), [["slider_acceleration_m_s2", "acc"]]);
+  assert.deepEqual(kept.channels.map(({ name, column: from }) => [name, from]),
+    [["slider_acceleration_m_s2", "acc"]]);
   await expectAccessible(page);
   await picture(page, "measurement", { fullPage: true });
   await leave(page, /422/);
@@ -75,7 +79,8 @@ test("a fit finds the clearance of a measurement", { timeout: 5 * minutes }, asy
   const fit = await ask(`/v1/fits/${id}`);
   const row = page.getByRole("row").filter({ has: page.locator(".interval") });
   const found = Number(await row.getByRole("cell").nth(1).textContent());
-  assert.ok(Math.abs(found / fit.parameters[0].value - 1) < 1e-4, `${found} instead of ${fit.parameters[0].value}`);
+  assert.ok(Math.abs(found / fit.parameters[0].value - 1) < 1e-4,
+    `${found} instead of ${fit.parameters[0].value}`);
   assert.ok(Math.abs(found / clearance - 1) < 0.05, `a clearance of ${found} mm instead of ${clearance}`);
   await page.getByText(/^Slider acceleration: what is held back is predicted with an error of/).waitFor();
   await page.locator(".chart canvas").nth(2).waitFor();
@@ -118,7 +123,8 @@ test("a measurement is kept as long as a fit uses it", async () => {
   await leave(page, /409/);
 });
 
-test("an optimisation begins with a sweep, and its front is selected in all parts", { timeout: 5 * minutes }, async () => {
+test("an optimisation begins with a sweep, and its front is selected in all parts", { timeout: 5 * minutes },
+  async () => {
   const sweep = await runSweep({ name: "small", parameters: rig, sweep: { clearance_mm: [0.1, 0.4] } });
   const page = await visit(`#/sweeps/${sweep.id}?metric=peak_contact_force_n`);
   await page.getByRole("link", { name: "Optimise" }).click();

@@ -137,7 +137,10 @@ export const findFitSignals = (id, query, signal) =>
 
 /** @type {(id?: string) => string} */
 const measurementPath = (id) => addressOf(`/v1/measurements${id ? `/${encodeURIComponent(id)}` : ""}`);
-/** @type {(query: Api.Query<"/v1/measurements">, signal: AbortSignal) => Promise<Api.Page<"/v1/measurements">>} */
+/**
+ * @type {(query: Api.Query<"/v1/measurements">, signal: AbortSignal) =>
+ *   Promise<Api.Page<"/v1/measurements">>}
+ */
 export const listMeasurements = (query, signal) => ask(withQuery(measurementPath(), query), { signal });
 /** @type {(id: string, signal: AbortSignal) => Promise<Api.Measurement>} */
 export const findMeasurement = (id, signal) => ask(measurementPath(id), { signal });

@@ -29,7 +29,8 @@ function inPageColours(option) {
 
 /// Option of a chart without data. @param why  reason, in a line of its own  @param told  the first line
 export function nothingYet(why = "", told = "No job has a value of this metric.") {
-  return { title: { text: [told, why].filter(Boolean).join("\n"), left: "center", top: "middle", textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
+  return { title: { text: [told, why].filter(Boolean).join("\n"), left: "center", top: "middle",
+    textStyle: { color: colour("quiet"), fontSize: 14, lineHeight: 22, fontWeight: "normal" } } };
 }
 
 /// Colours and lines of an axis.

@@ -39,16 +39,20 @@ export class FitForm extends StudyForm {
     const { over, values } = this.state;
     const channels = [...new Set(this.known.flatMap((each) => each.channels.map(({ name }) => name)))];
     const paths = [...this.fields.filter(({ kind }) => kind === "number").map(({ path }) => path),
-      ...channels.flatMap((channel) => ["gain", "offset", "delay_s"].map((key) => `sensor.${channel}.${key}`))];
+      ...channels.flatMap((channel) =>
+        ["gain", "offset", "delay_s"].map((key) => `sensor.${channel}.${key}`))];
     return [this.nameField(), this.measured.element(), ...variableFields(this, over, paths,
-      "Parameters that are looked for, between two bounds. sensor.CHANNEL.gain, .offset and .delay_s are quantities of "
+      "Parameters that are looked for, between two bounds. sensor.CHANNEL.gain, .offset and .delay_s are "
+        + "quantities of "
         + "a sensor; runs.1.PATH is a parameter of run 1 alone."),
     h("h2", {}, "Method"),
-    this.told("basis", "Compared", values, "basis", "Samples suit motions that do not diverge, features all others",
+    this.told("basis", "Compared", values, "basis", "Samples suit motions that do not diverge, features "
+      + "all others",
       bases),
     this.told("intervals", "Intervals", values, "intervals", "95 % intervals of the values", intervals),
     ...numbers.map((key) => this.number(key)),
-    h("h2", {}, "Linkage"), h("p", { class: "quiet small" }, "Parameters that are known. Those of the measured runs need "
+    h("h2", {}, "Linkage"),
+      h("p", { class: "quiet small" }, "Parameters that are known. Those of the measured runs need "
       + "not be given; duration and output rate follow from the samples."),
     ...this.parameterFields(), this.linkage(),
     h("details", {}, h("summary", {}, "Priority"), h("p", { class: "actions" }, ...this.orderFields()))];
@@ -56,7 +60,9 @@ export class FitForm extends StudyForm {
 
   build() {
     const { request: { name, parameters, sweep = {}, priority, reuse }, problems } = this.buildCommon();
-    for (const path of Object.keys(sweep)) problems.push({ path, detail: "must have a single value in a fit" });
+    for (const path of Object.keys(sweep)) {
+      problems.push({ path, detail: "must have a single value in a fit" });
+    }
     const { basis, intervals: kind } = this.state.values;
     /** @type {any} */
     const request = { name, parameters };

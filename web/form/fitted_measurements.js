@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measurements in the form of a fit: channels, windows that are fitted or held back, runs, and the shift of time.
+// Measurements in the form of a fit: channels, windows that are fitted or held back, runs, and the shift of
+// time.
 import { choice, h } from "/core/dom.js";
 import { nameOf, number, unitOf } from "/core/format.js";
 import { itemRow, itemText, listFields } from "/form/list_fields.js";
@@ -39,10 +40,12 @@ export class FittedMeasurements {
   }
 
   /** @param {Api.Schemas["FittedMeasurement"]} given  @returns {Entry} */
-  entryOf({ id, fitted, held_back: heldBack, runs, held_back_runs: heldBackRuns, time_shift_s: shift, channels }) {
+  entryOf({ id, fitted, held_back: heldBack, runs, held_back_runs: heldBackRuns, time_shift_s: shift,
+    channels }) {
     const names = this.known.find((each) => each.id === id)?.channels.map(({ name }) => name)
       ?? Object.keys(channels ?? {});
-    return { id, fitted: windowsText(fitted), held_back: windowsText(heldBack), runs: textOf(runs?.join(", ")),
+    return { id, fitted: windowsText(fitted), held_back: windowsText(heldBack),
+      runs: textOf(runs?.join(", ")),
       held_back_runs: textOf(heldBackRuns?.join(", ")), time_shift_s: textOf(shift),
       channels: names.map((name) => ({ name, isUsed: channels === undefined || name in channels,
         weight: textOf(channels?.[name]?.weight), noise: textOf(channels?.[name]?.noise) })) };
@@ -51,7 +54,8 @@ export class FittedMeasurements {
   element() {
     const fresh = () => this.entryOf({ id: this.known[0]?.id ?? "" });
     return listFields(this.form, { title: "Measurements", noun: "Measurement", items: this.items, fresh,
-      help: "Windows are times of the measurement in s, such as 2 to 4.5; 5 to 6. Without windows the samples from "
+      help: "Windows are times of the measurement in s, such as 2 to 4.5; 5 to 6. Without windows the "
+        + "samples from "
         + "run_up_s on are fitted. What is held back is predicted, not fitted.",
       draw: (item, index) => this.draw(item, index) });
   }
@@ -85,7 +89,8 @@ export class FittedMeasurements {
     box.checked = channel.isUsed;
     const name = nameOf(channel.name);
     return h("div", { class: "actions" }, h("label", {}, box, ` ${name}`),
-      itemText(this.form, "Weight", channel, "weight", { placeholder: "1", "aria-label": `Weight of ${name}` }),
+      itemText(this.form, "Weight", channel, "weight",
+        { placeholder: "1", "aria-label": `Weight of ${name}` }),
       itemText(this.form, `Noise${unit ? ` [${unit}]` : ""}`, channel, "noise",
         { placeholder: "estimated", "aria-label": `Noise of ${name}` }));
   }
@@ -122,7 +127,8 @@ export class FittedMeasurements {
       addNumber(noise, "noise", row, channel, problems);
       return [name, channel];
     });
-    const isUsual = used.length === channels.length && used.every(([, channel]) => Object.keys(channel).length === 0);
+    const isUsual = used.length === channels.length
+      && used.every(([, channel]) => Object.keys(channel).length === 0);
     return isUsual ? null : Object.fromEntries(used);
   }
 

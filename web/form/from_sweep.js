@@ -48,7 +48,8 @@ export async function fitFrom(query, signal) {
   const chosen = measurement ? [await findMeasurement(measurement, signal)]
     : (await listMeasurements({ limit: 1 }, signal)).items;
   const measurements = chosen.map(({ id }) => ({ id }));
-  if (!sweep) return { name: chosen.map(({ name }) => `Fit of ${name}`).join(), over: usualVariables, measurements };
+  if (!sweep) return { name: chosen.map(({ name }) => `Fit of ${name}`).join(), over: usualVariables,
+    measurements };
   const { name, parameters, over, rest } = await partsOf(sweep, signal);
   const fixed = Object.entries(rest).map(([path, axis]) => [path, sizes(axis)[0]]);
   // These follow from the samples.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists in forms, such as the variables of a fit: items that are added and taken away, each with a place for its fault.
+// Lists in forms, such as the variables of a fit: items that are added and taken away, each with a place for
+// its fault.
 import { h } from "/core/dom.js";
 
 /** @typedef {import("/form/request_form.js").RequestForm} RequestForm */

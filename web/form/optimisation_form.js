@@ -40,26 +40,32 @@ export class OptimisationForm extends StudyForm {
     return [this.nameField(), ...variableFields(this, over, paths,
       "Parameters between two bounds; also numbers of a description, such as linkage.bodies.rod.mass_kg."),
     listFields(this, { title: "Objectives", noun: "Objective", items: objectives,
-      help: "Several give a Pareto front. A metric counts with its worst value over the jobs of a candidate, or with "
+      help: "Several give a Pareto front. A metric counts with its worst value over the jobs of a "
+        + "candidate, or with "
         + "a quantile.", fresh: () => ({ metric: "", goal: "minimise", quantile: "" }),
-      draw: (item, index) => itemRow(this, `objectives.${index}`, [metric(item), choice("Goal", goals, item.goal,
+      draw: (item, index) => itemRow(this, `objectives.${index}`,
+        [metric(item), choice("Goal", goals, item.goal,
         (goal) => { item.goal = goal; this.update(); }), quantile(item)]) }),
     listFields(this, { title: "Constraints", noun: "Constraint", items: bounds,
       help: "Bounds that a feasible candidate keeps, in the unit of the metric.",
       fresh: () => ({ metric: "", side: "maximum", value: "", quantile: "" }),
       draw: (item, index) => itemRow(this, `bounds.${index}`, [metric(item), choice("Side", sides, item.side,
-        (side) => { item.side = side; this.update(); }), itemText(this, "Value", item, "value"), quantile(item)]) }),
+        (side) => { item.side = side; this.update(); }), itemText(this, "Value", item, "value"),
+          quantile(item)]) }),
     list, h("h2", {}, "Budget"), ...numbers.map((key) => this.number(key)),
     h("h2", {}, "Linkage and axes"),
-    h("p", { class: "quiet small" }, "A candidate has a job for each combination of the parameters that have a list or "
+    h("p", { class: "quiet small" }, "A candidate has a job for each combination of the parameters that "
+      + "have a list or "
       + "a range."),
     ...this.parameterFields(), this.linkage(),
-    h("details", { open: Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates and priority"),
+    h("details", { open: Number(this.state.replicates.count) > 1 },
+      h("summary", {}, "Replicates and priority"),
       h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
   }
 
   build() {
-    const { request: { name, parameters, sweep, replicates, priority, reuse }, problems } = this.buildCommon();
+    const { request: { name, parameters, sweep, replicates, priority, reuse },
+      problems } = this.buildCommon();
     const request = { name, parameters };
     addVariables(this.state.over, request, problems);
     request.objectives = this.state.objectives.map(({ metric, goal, quantile }, index) => {
@@ -75,7 +81,8 @@ export class OptimisationForm extends StudyForm {
     });
     if (bounds.length > 0) request.bounds = bounds;
     this.addNumbers(numbers, request, problems);
-    return { request: JSON.parse(JSON.stringify({ ...request, sweep, replicates, priority, reuse })), problems };
+    return { request: JSON.parse(JSON.stringify({ ...request, sweep, replicates, priority, reuse })),
+      problems };
   }
 
   drawCount(request) {

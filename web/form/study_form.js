@@ -20,7 +20,8 @@ export async function showStudyForm(main, Form, begin, query, signal) {
   document.title = `RPSUP: ${Form.title.toLowerCase()}`;
   const from = query.get("from");
   const [parameters, schemas, request, more] = await Promise.all([parameterSchema(), requestSchemas(signal),
-    from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {} : begin(query, signal),
+    from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {}
+      : begin(query, signal),
     Form.load(signal)]);
   const form = new Form(fieldsOf(parameters), schemas, request, more);
   main.replaceChildren(h("h1", {}, Form.title),
@@ -43,7 +44,12 @@ export class StudyForm extends RequestForm {
   static async load(_signal) { return null; }
 
   /// @param _more  that load has found
-  /** @param {any[]} fields  @param {Record<string, any>} schemas  @param {any} request  @param {any} [_more] */
+  /**
+   * @param {any[]} fields
+   * @param {Record<string, any>} schemas
+   * @param {any} request
+   * @param {any} [_more]
+   */
   constructor(fields, schemas, request, _more) {
     super(fields, { ...readRequest(fields, request), values: {} });
     const kind = /** @type {typeof StudyForm} */ (this.constructor);

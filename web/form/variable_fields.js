@@ -25,7 +25,8 @@ export function variableFields(form, items, names, help) {
   const list = h("datalist", { id: freshId("variables") },
     names.map((name) => h("option", { value: name }, titleOfVariable(name))));
   const draw = (item, index) => itemRow(form, `over.${index}`, [
-    itemText(form, "Parameter", item, "path", { list: list.id, size: 34 }), itemText(form, "From", item, "from"),
+    itemText(form, "Parameter", item, "path", { list: list.id, size: 34 }),
+      itemText(form, "From", item, "from"),
     itemText(form, "To", item, "to"), itemText(form, "Start (optional)", item, "start"),
     choice("Spacing", [["linear", "linear"], ["log", "logarithmic"]], item.scale,
       (scale) => { item.scale = scale; form.update(); })]);
@@ -34,7 +35,11 @@ export function variableFields(form, items, names, help) {
 }
 
 /// Puts the variables into a request.
-/** @param {VariableEntry[]} items  @param {any} request  @param {{ path: string, detail: string }[]} problems */
+/**
+ * @param {VariableEntry[]} items
+ * @param {any} request
+ * @param {{ path: string, detail: string }[]} problems
+ */
 export function addVariables(items, request, problems) {
   request.over = {};
   items.forEach(({ path, scale, ...numbers }, index) => {
@@ -42,7 +47,9 @@ export function addVariables(items, request, problems) {
     if (name === "") return problems.push({ path: `over.${index}`, detail: "has no parameter" });
     if (name in request.over) return problems.push({ path: `over.${index}`, detail: "is given twice" });
     const variable = {};
-    for (const key of ["from", "to", "start"]) addNumber(numbers[key], key, `over.${index}`, variable, problems);
+    for (const key of ["from", "to", "start"]) {
+      addNumber(numbers[key], key, `over.${index}`, variable, problems);
+    }
     if (scale !== "linear") variable.scale = scale;
     request.over[name] = variable;
     return undefined;

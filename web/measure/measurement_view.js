@@ -12,7 +12,12 @@ import { TimeWindow } from "/run/time_window.js";
 
 const mostSearched = 100;
 
-/** @param {HTMLElement} main  @param {string} id  @param {URLSearchParams} query  @param {AbortSignal} signal */
+/**
+ * @param {HTMLElement} main
+ * @param {string} id
+ * @param {URLSearchParams} query
+ * @param {AbortSignal} signal
+ */
 export async function showMeasurement(main, id, query, signal) {
   const measurement = await findMeasurement(id, signal);
   const name = measurement.name || id;
@@ -26,7 +31,8 @@ export async function showMeasurement(main, id, query, signal) {
     plots.replaceChildren(...plotsOf(measurement, run, AbortSignal.any([signal, shown.signal])));
   };
   const first = Math.min(Number(query.get("run")) || 0, measurement.runs.length - 1);
-  const runs = measurement.runs.map((run, index) => [String(index), `${index}: ${knownText(run) || plural(run.samples, "sample")}`]);
+  const runs = measurement.runs.map((run, index) => [String(index),
+    `${index}: ${knownText(run) || plural(run.samples, "sample")}`]);
   main.replaceChildren(headOf(measurement, name, trouble), trouble, await usersOf(id, signal),
     measurement.runs.length > 1 ? h("p", { class: "actions" }, choice("Run", runs, String(first),
       (run) => { rememberQuery({ run }); showRun(Number(run)); })) : "", plots, channelTable(measurement),
@@ -39,8 +45,10 @@ function headOf({ id, created_at: created, samples, duration_s: duration, bytes:
   return h("div", { class: "head" }, h("div", {}, h("h1", {}, name),
     h("p", { class: "quiet" }, `${plural(samples, "sample")}, ${number(duration)} s, ${bytes(size)}; stored `
       + `${moment(created)}`)),
-  h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo("fits", "new", { measurement: id }) }, "Fit"),
-    h("a", { class: "button", href: measurementDataUrl(id, { format: "csv" }), download: `${name}.csv` }, "CSV"),
+  h("p", { class: "actions" },
+    h("a", { class: "button main", href: routeTo("fits", "new", { measurement: id }) }, "Fit"),
+    h("a", { class: "button", href: measurementDataUrl(id, { format: "csv" }), download: `${name}.csv` },
+      "CSV"),
     h("button", { class: "danger", onclick: () => removeMeasurement(id, name, trouble,
       () => { location.hash = routeTo("measurements"); }) }, "Delete")));
 }
@@ -70,7 +78,8 @@ export async function removeMeasurement(id, name, trouble, done) {
 async function usersOf(id, signal) {
   const { items } = await fits.list({ limit: mostSearched }, signal);
   const users = items.filter(({ measurement_ids: ids }) => ids.includes(id));
-  return users.length === 0 ? "" : h("p", {}, `Used by ${plural(users.length, "fit")}: `, users.flatMap((fit, index) =>
+  return users.length === 0 ? "" : h("p", {}, `Used by ${plural(users.length, "fit")}: `,
+    users.flatMap((fit, index) =>
     [index > 0 ? ", " : "", h("a", { href: routeTo("fits", fit.id) }, fit.name || fit.id)]));
 }
 
@@ -86,7 +95,8 @@ function plotsOf(measurement, run, signal) {
   const { start_s: start, end_s: end, sampling } = measurement.runs[run];
   const times = new TimeWindow(end, Math.min(end - start, 5 * sampling.largest_step_s), start);
   return measurement.channels.map(({ name }, index) => {
-    const trace = measuredTrace(measurement, { run, channel: name, shift: 0 }, "measured", () => lineColour(index));
+    const trace = measuredTrace(measurement, { run, channel: name, shift: 0 }, "measured",
+      () => lineColour(index));
     return plotCard(titleOf(name), { traces: trace ? [trace] : [], times, height: 220, signal });
   });
 }
@@ -105,8 +115,10 @@ const cell = (value) => h("td", { class: "number" }, number(value));
 function channelTable({ channels }) {
   const numbers = ["Sign", "Gain", "Offset", "Delay [s]", "Low pass [Hz]"].map((text) => [text, "number"]);
   return tableCard("Channels", "The plots show sign · gain · x(t + delay) + offset of the samples x.",
-    [["Channel"], ["Unit"], ["Column"], ...numbers], channels.map((each) => h("tr", {}, h("td", {}, each.name),
-      h("td", {}, each.unit || "1"), h("td", {}, each.column), cell(each.sign), cell(each.gain), cell(each.offset),
+    [["Channel"], ["Unit"], ["Column"], ...numbers],
+      channels.map((each) => h("tr", {}, h("td", {}, each.name),
+      h("td", {}, each.unit || "1"), h("td", {}, each.column), cell(each.sign), cell(each.gain),
+        cell(each.offset),
       cell(each.delay_s), cell(each.low_pass_hz))));
 }
 
@@ -114,8 +126,10 @@ function channelTable({ channels }) {
 function runTable({ runs }) {
   const numbers = ["Run", "Samples", "From [s]", "To [s]", "Mean rate [Hz]"].map((text) => [text, "number"]);
   return tableCard("Runs", "Extremes are those of the samples as they were sent.",
-    [...numbers, ["Least, largest, RMS"], ["Known parameters"]], runs.map((run, index) => h("tr", {}, cell(index),
+    [...numbers, ["Least, largest, RMS"], ["Known parameters"]],
+      runs.map((run, index) => h("tr", {}, cell(index),
       cell(run.samples), cell(run.start_s), cell(run.end_s), cell(run.sampling.rate_hz),
       h("td", {}, run.statistics.map(({ channel, min, max, rms }) => h("div", { class: "small" },
-        `${channel}: ${number(min)}, ${number(max)}, ${number(rms)}`))), h("td", {}, knownText(run) || "none"))));
+        `${channel}: ${number(min)}, ${number(max)}, ${number(rms)}`))),
+          h("td", {}, knownText(run) || "none"))));
 }

@@ -40,16 +40,20 @@ function optionOf(shown) {
   const look = axisLook();
   const isLast = (index) => index === signals.length - 1;
   return {
-    grid: signals.map((_, index) => ({ left: 75, right: 20, top: `${5 + index * part}%`, height: `${part - 7}%` })),
+    grid: signals.map((_, index) => ({ left: 75, right: 20, top: `${5 + index * part}%`,
+      height: `${part - 7}%` })),
     tooltip: { trigger: "axis", formatter: (lines) => [`t ${number(lines[0].value[0], 6)} s`,
-      ...lines.map(({ seriesName, value }) => `${seriesName}: ${number(value[1])} ${unitOf(seriesName)}`)].join("\n") },
+      ...lines.map(({ seriesName, value }) =>
+        `${seriesName}: ${number(value[1])} ${unitOf(seriesName)}`)].join("\n") },
     axisPointer: { link: [{ xAxisIndex: "all" }] },
-    xAxis: signals.map((_, index) => ({ type: "value", gridIndex: index, min: "dataMin", max: "dataMax", ...look,
+    xAxis: signals.map((_, index) => ({ type: "value", gridIndex: index, min: "dataMin", max: "dataMax",
+      ...look,
       axisLabel: { ...look.axisLabel, show: isLast(index), formatter: (t) => number(t, 5) },
       ...(isLast(index) ? { name: "t [s]", nameLocation: "middle", nameGap: 26 } : {}) })),
     yAxis: signals.map(({ name }, index) => ({ type: "value", gridIndex: index, scale: true, splitNumber: 3,
       name: unitOf(name) ? `[${unitOf(name)}]` : "no unit", nameLocation: "middle", nameGap: 50, ...look })),
-    series: signals.map(({ name, values }, index) => ({ type: "line", name, symbol: "none", color: lineColour(index),
+    series: signals.map(({ name, values }, index) => ({ type: "line", name, symbol: "none",
+      color: lineColour(index),
       xAxisIndex: index, yAxisIndex: index, lineStyle: { width: 1.2 }, data: thinned(shown.time, values) })),
     title: signals.map(({ name }, index) => ({ text: name, left: 80, top: `${0.4 + index * part}%`,
       textStyle: { color: look.axisLabel.color, fontSize: 12, fontWeight: "normal" } })),

@@ -6,7 +6,8 @@ import { readNpz } from "/measure/npz.js";
  * @typedef {{ column: string, name: string, isUsed: boolean, sign: string, gain: string, offset: string,
  *   delay_s: string, low_pass_hz: string }} ChannelEntry
  * @typedef {{ name: string, parameters: string, columns: Record<string, number[]> }} RunEntry
- * @typedef {{ name: string, kind: "csv" | "npz" | "json", time: string, columns: string[], channels: ChannelEntry[],
+ * @typedef {{ name: string, kind: "csv" | "npz" | "json", time: string, columns: string[], channels:
+ * ChannelEntry[],
  *   runs: RunEntry[], file: File | null }} Draft
  */
 
@@ -26,12 +27,15 @@ export async function readFiles(files) {
     return readJson(files[0]);
   }
   const runs = await Promise.all(files.map(async (file, index) => ({ name: file.name, parameters: "",
-    columns: kinds[index] === "npz" ? await readNpz(await file.arrayBuffer()) : columnsOf(await file.text()) })));
+    columns: kinds[index] === "npz" ? await readNpz(await file.arrayBuffer())
+      : columnsOf(await file.text()) })));
   const columns = Object.keys(runs[0].columns);
   const other = runs.find((run) => columns.some((column) => !(column in run.columns)));
-  if (other) throw new Error(`${other.name} has other columns than ${runs[0].name}: runs have the same channels.`);
+  if (other) throw new Error(`${other.name} has other columns than ${runs[0].name}: runs have the same `
+    + `channels.`);
   const time = usualTimes.find((name) => columns.includes(name)) ?? columns[0];
-  return { name: files[0].name, kind: kinds[0], time, columns, runs, file: files.length === 1 ? files[0] : null,
+  return { name: files[0].name, kind: kinds[0], time, columns, runs, file: files.length === 1 ? files[0]
+    : null,
     channels: columns.map((column) => entryOf(column)) };
 }
 
@@ -53,7 +57,8 @@ async function readJson(file) {
   if (!Array.isArray(channels) || !Array.isArray(runs) || runs.length === 0) {
     throw new Error(`${file.name} has no lists of channels and runs.`);
   }
-  return { name, kind: "json", time: "time_s", columns: ["time_s", ...channels.map((each) => each.name)], file: null,
+  return { name, kind: "json", time: "time_s", columns: ["time_s", ...channels.map((each) => each.name)],
+    file: null,
     channels: channels.map((each) => entryOf(each.name, each)),
     runs: runs.map((run, index) => ({ name: `run ${index}`, columns: { time_s: run.time_s, ...run.values },
       parameters: run.parameters ? JSON.stringify(run.parameters, null, 1) : "" })) };
@@ -63,7 +68,8 @@ async function readJson(file) {
 /** @param {string} content */
 function columnsOf(content) {
   const lines = content.split(/\r\n|\n|\r/);
-  const names = lines[0].replace(/^\uFEFF/, "").split(",").map((name) => name.trim().replace(/^"(.*)"$/, "$1"));
+  const names = lines[0].replace(/^\uFEFF/, "").split(",")
+    .map((name) => name.trim().replace(/^"(.*)"$/, "$1"));
   /** @type {number[][]} */
   const values = names.map(() => []);
   for (const line of lines.slice(1)) {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upload of a measurement: files, channels with their units, a preview, and the faults that the service finds.
+// Upload of a measurement: files, channels with their units, a preview, and the faults that the service
+// finds.
 import { Refusal, requestSchemas } from "/core/api.js";
 import { loadCharts } from "/core/charts.js";
 import { choice, freshId, h } from "/core/dom.js";
-import { plural, unitOf } from "/core/format.js";
+import { plural } from "/core/format.js";
 import { settled } from "/core/live.js";
 import { routeTo } from "/core/route.js";
+import { channelField } from "/measure/channel_field.js";
 import { faultsOf, sendDraft, usedChannels } from "/measure/measurement_request.js";
 import { previewChart } from "/measure/preview.js";
 import { readFiles } from "/measure/read_files.js";
 
 const drawMs = 200;
-const sensorFields = /** @type {const} */ ([["sign", "Sign (1 or −1)"], ["gain", "Gain"], ["offset", "Offset"],
-  ["delay_s", "Delay [s]"], ["low_pass_hz", "Low pass [Hz]"]]);
 
 /** @param {HTMLElement} main  @param {AbortSignal} signal */
 export function showUpload(main, signal) {
@@ -55,9 +55,11 @@ class UploadForm {
   parts() {
     const files = h("input", { type: "file", multiple: true, accept: ".csv,.txt,.npz,.json",
       onchange: () => this.read([...files.files ?? []]) });
-    return [h("p", {}, "CSV or NPZ with one run a file, or JSON with all runs. CSV has column names in its first line, "
+    return [h("p", {}, "CSV or NPZ with one run a file, or JSON with all runs. CSV has column names in its "
+      + "first line, "
       + "commas between the cells and decimal points."),
-    h("section", { class: "card" }, h("label", { class: "choice" }, h("span", {}, "Files"), files), this.fields),
+    h("section", { class: "card" }, h("label", { class: "choice" }, h("span", {}, "Files"), files),
+      this.fields),
     h("section", { class: "card" }, h("div", { class: "head" }, h("h2", {}, "Preview"), this.runPicker),
       this.summary, this.preview), this.trouble, h("p", { class: "actions" }, this.send), this.names];
   }
@@ -89,37 +91,16 @@ class UploadForm {
     });
     this.faults = draft.channels.map(() => h("p", { class: "trouble small", hidden: true }));
     const channels = draft.channels.map((entry, index) => (entry.column === draft.time ? null
-      : this.channelField(entry, this.faults[index])));
-    this.fields.replaceChildren(h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Name"), name),
+      : channelField(entry, this.faults[index], this.names.id, () => this.changed())));
+    this.fields.replaceChildren(h("p", { class: "actions" },
+      h("label", { class: "choice" }, h("span", {}, "Name"), name),
       draft.kind === "json" ? "" : time), h("h2", {}, "Channels"),
-    h("p", { class: "quiet small" }, "A channel has the name of a job's channel; the end of the name is its unit."),
+    h("p", { class: "quiet small" }, "A channel has the name of a job's channel; the end of the name is "
+      + "its unit."),
     ...channels.filter((element) => element !== null), this.runFields());
     const runs = draft.runs.map((run, index) => [String(index), run.name]);
     this.runPicker.replaceChildren(draft.runs.length > 1 ? choice("Run", runs, "0",
       (run) => { this.shownRun = Number(run); this.drawPreview(); }) : "");
-  }
-
-  /** @param {import("/measure/read_files.js").ChannelEntry} entry  @param {HTMLElement} fault */
-  channelField(entry, fault) {
-    const unit = h("span", { class: "quiet" });
-    const drawUnit = () => { unit.textContent = unitOf(entry.name) ? `[${unitOf(entry.name)}]` : "no unit yet"; };
-    const box = h("input", { type: "checkbox",
-      onchange: () => { entry.isUsed = box.checked; this.changed(); } });
-    box.checked = entry.isUsed;
-    const name = h("input", { type: "text", value: entry.name, list: this.names.id,
-      "aria-label": `Channel of the column ${entry.column}`,
-      oninput: () => { entry.name = name.value; drawUnit(); this.changed(); } });
-    drawUnit();
-    const sensor = sensorFields.map(([key, label]) => {
-      const input = h("input", { type: "text", inputmode: "decimal", size: 8, value: entry[key],
-        oninput: () => { entry[key] = input.value; this.changed(); } });
-      return h("label", { class: "choice" }, h("span", {}, label), input);
-    });
-    return h("div", { class: "field", role: "group", "aria-label": `Column ${entry.column}` },
-      h("label", {}, box, ` ${entry.column}`), unit, h("div", { class: "values" }, name),
-      h("details", { class: "whole" }, h("summary", { class: "small" }, "Sensor"),
-        h("p", { class: "quiet small" }, "The signal is sign · gain · x(t + delay) + offset of the samples x."),
-        h("p", { class: "actions" }, sensor)), fault);
   }
 
   /// What is known of each run, as JSON.
@@ -131,7 +112,8 @@ class UploadForm {
         const area = h("textarea", { rows: 2, class: "wide", value: run.parameters,
           placeholder: "{\"crank_velocity_rad_s\": 10}",
           oninput: () => { run.parameters = area.value; this.changed(); } });
-        return [h("label", { class: "choice" }, h("span", {}, `${run.name}: JSON object of parameters of a job`), area),
+        return [h("label", { class: "choice" },
+          h("span", {}, `${run.name}: JSON object of parameters of a job`), area),
           this.runFaults[index]];
       }));
   }
@@ -160,11 +142,15 @@ class UploadForm {
     this.preview.hidden = draft === null;
     const run = draft?.runs[this.shownRun];
     const count = draft && run ? run.columns[draft.time]?.length ?? 0 : 0;
-    this.summary.textContent = draft ? `${plural(draft.runs.length, "run")}, ${plural(usedChannels(draft).length,
+    this.summary.textContent = draft
+      ? `${plural(draft.runs.length, "run")}, ${plural(usedChannels(draft).length,
       "channel")}, ${plural(count, "sample")} in this run` : "Choose a file to see its signals.";
     if (!draft) return;
     this.chart ??= previewChart(this.preview, () => this.signals(), this.signal)
-      .catch((error) => { this.preview.replaceChildren(h("p", { class: "trouble" }, error.message)); return null; });
+      .catch((error) => {
+        this.preview.replaceChildren(h("p", { class: "trouble" }, error.message));
+        return null;
+      });
     this.chart.then((chart) => chart?.draw());
   }
 
@@ -173,8 +159,10 @@ class UploadForm {
     const { draft } = this;
     if (!draft) return null;
     const { columns } = draft.runs[this.shownRun];
-    return { time: columns[draft.time], signals: usedChannels(draft).map(({ column, name, sign, gain, offset }) =>
-      ({ name: name.trim(), values: columns[column].map((x) => Number(sign) * Number(gain) * x + Number(offset)) })) };
+    return { time: columns[draft.time],
+      signals: usedChannels(draft).map(({ column, name, sign, gain, offset }) =>
+      ({ name: name.trim(),
+        values: columns[column].map((x) => Number(sign) * Number(gain) * x + Number(offset)) })) };
   }
 
   async submit() {

@@ -158,10 +158,12 @@ class JobPage {
     this.acceleration = described ? { channel: mainAcceleration(columns) } : sliderAcceleration;
     const joints = clearanceJoints(this.job, columns);
     const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
-    const inCards = [this.acceleration.channel, ...joints.map(({ prefix }) => `${prefix}contact_force_n`), ...drives,
+    const inCards = [this.acceleration.channel, ...joints.map(({ prefix }) => `${prefix}contact_force_n`),
+      ...drives,
       ...energies];
     this.added.push(...new Set(measured.map(({ channel }) => channel)
-      .filter((channel) => columns.includes(channel) && !inCards.includes(channel) && !this.added.includes(channel))));
+      .filter((channel) => columns.includes(channel) && !inCards.includes(channel)
+        && !this.added.includes(channel))));
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
     const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "",
@@ -169,7 +171,8 @@ class JobPage {
     const plots = [this.main,
       joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
       drives.length > 0 ? this.card("Drive torque and force", drives) : null,
-      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay(), this.measurements(columns)),
+      this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay(),
+        this.measurements(columns)),
       motionCard(this.job, columns, this.signal),
       !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
     const side = [sceneCard(this.job, all, this.times, this.signal),
@@ -185,7 +188,8 @@ class JobPage {
    * @param {Partial<Parameters<typeof plotCard>[1]>} more
    */
   card(title, channels, more = {}) {
-    return plotCard(title, { traces: [...tracesOf(this.jobs, channels), ...this.measuredOf(channels)], note: peakNote(this.jobs, channels),
+    return plotCard(title, { traces: [...tracesOf(this.jobs, channels), ...this.measuredOf(channels)],
+      note: peakNote(this.jobs, channels),
       times: this.times, height: 220, signal: this.signal, ...more });
   }
 
@@ -201,7 +205,8 @@ class JobPage {
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
     this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration",
-      { traces: [...behind, ...tracesOf(this.jobs, [acceleration]), ...this.measuredOf([acceleration.channel])], note: peakNote(this.jobs, [acceleration.channel]),
+      { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
+        ...this.measuredOf([acceleration.channel])], note: peakNote(this.jobs, [acceleration.channel]),
         times: this.times, height: 320, signal, tools }));
   }
 
@@ -232,7 +237,8 @@ class JobPage {
   /** @param {string[]} columns */
   measurements(columns) {
     const place = h("span", { class: "actions" });
-    measurementPicker(columns, (overlay) => { location.hash = this.addressWith([...this.overlays, overlay]); },
+    measurementPicker(columns,
+      (overlay) => { location.hash = this.addressWith([...this.overlays, overlay]); },
       this.signal).then((picker) => place.append(...picker)).catch(() => {});
     return place;
   }
@@ -278,7 +284,8 @@ class JobPage {
     const { times } = this;
     const short = (value) => Number(value.toPrecision(7));
     const window = times.isWhole ? {} : { from: short(times.from), to: short(times.to) };
-    rememberQuery({ with: this.query.get("with"), measured: writeOverlays(this.overlays), channels: this.added.join(","), ...window,
+    rememberQuery({ with: this.query.get("with"), measured: writeOverlays(this.overlays),
+      channels: this.added.join(","), ...window,
       t: times.instant > 0 ? short(times.instant) : "" });
   }
 }

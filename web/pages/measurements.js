@@ -8,7 +8,8 @@ import { removeMeasurement, showMeasurement } from "/measure/measurement_view.js
 import { showUpload } from "/measure/upload_form.js";
 
 const pageSize = 100;
-const headings = [["Name"], ["Channels"], ["Samples", "number"], ["Duration [s]", "number"], ["Created"], ["Actions"]];
+const headings = [["Name"], ["Channels"], ["Samples", "number"], ["Duration [s]", "number"], ["Created"],
+  ["Actions"]];
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export function show(main, { id, query, signal }) {
@@ -35,23 +36,31 @@ async function showList(main, signal) {
     status.textContent = items.length === 0 ? "No measurements yet." : "";
   };
   main.replaceChildren(h("h1", {}, "Measurements"),
-    h("p", {}, "Signals of a lab. A fit finds the parameters with which jobs give them; any job can be looked at "
+    h("p", {}, "Signals of a lab. A fit finds the parameters with which jobs give them; any job can be "
+      + "looked at "
       + "beneath them."),
     h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo("measurements", "new") },
       "New measurement")), trouble, status, table, more);
   await refresh();
 }
 
-/** @param {Api.Listed<"/v1/measurements">} measurement  @param {HTMLElement} trouble  @param {() => unknown} refresh */
-function row({ id, name: given, channels, samples, duration_s: duration, created_at: created }, trouble, refresh) {
+/**
+ * @param {Api.Listed<"/v1/measurements">} measurement
+ * @param {HTMLElement} trouble
+ * @param {() => unknown} refresh
+ */
+function row({ id, name: given, channels, samples, duration_s: duration, created_at: created }, trouble,
+  refresh) {
   const name = given || id;
   return h("tr", {}, h("td", { class: "name" }, h("a", { href: routeTo("measurements", id) }, name)),
     h("td", {}, channels.length > 4 ? plural(channels.length, "channel")
       : channels.map((channel) => titleOf(channel.name)).join(", ")),
-    h("td", { class: "number" }, samples.toLocaleString("en")), h("td", { class: "number" }, number(duration)),
+    h("td", { class: "number" }, samples.toLocaleString("en")),
+      h("td", { class: "number" }, number(duration)),
     h("td", { class: "fixed" }, moment(created)),
     h("td", {}, h("span", { class: "actions" },
-      h("a", { class: "button", href: routeTo("fits", "new", { measurement: id }), "aria-label": `Fit ${name}` }, "Fit"),
+      h("a", { class: "button", href: routeTo("fits", "new", { measurement: id }),
+        "aria-label": `Fit ${name}` }, "Fit"),
       h("button", { class: "danger", "aria-label": `Delete ${name}`,
         onclick: () => removeMeasurement(id, name, trouble, refresh) }, "Delete"))));
 }

@@ -14,7 +14,8 @@ import { showStudy } from "/study/study_view.js";
 const example = {
   name: "half the peak",
   parameters: { coupler: "flexible", crank_velocity_rad_s: 12 },
-  over: { coupler_diameter_mm: { from: 8, to: 14, start: 10 }, restitution: { from: 0.5, to: 0.95, start: 0.9 } },
+  over: { coupler_diameter_mm: { from: 8, to: 14, start: 10 },
+    restitution: { from: 0.5, to: 0.95, start: 0.9 } },
   objectives: [{ metric: "peak_slider_acceleration_m_s2", goal: "minimise" }],
   budget: 18,
   starts: 1,
@@ -29,7 +30,8 @@ function aimOf({ objectives, variables }) {
 const kind = {
   api: optimisations, route: "optimisations", title: "Optimisations",
   question: "Values of parameters for which metrics are least or largest.", listName: "Optimisations",
-  aim: { heading: "Goal", textOf: aimOf }, answerOf: shortAnswerOf, none: "No optimisations yet.", begin: "New optimisation",
+  aim: { heading: "Goal", textOf: aimOf }, answerOf: shortAnswerOf, none: "No optimisations yet.",
+    begin: "New optimisation",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

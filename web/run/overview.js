@@ -37,7 +37,8 @@ async function make(element, job, envelope, times, signal) {
   await laidOut(element, signal);
   // Only the extremes: between them lies the acceleration itself.
   const [other, trace = other] = envelope.map((channel) => ({ job: job.id, channel }));
-  const whole = { isWhole: true, start: times.start, from: 0, to: times.end, end: times.end, length: times.end };
+  const whole = { isWhole: true, start: times.start, from: 0, to: times.end, end: times.end,
+    length: times.end };
   const data = await loadAligned(uPlot, [trace, other], whole, element.clientWidth, signal);
   let plot = null;
   const draw = () => {

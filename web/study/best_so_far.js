@@ -24,7 +24,7 @@ function optionOf({ candidates, objective, study }) {
   const best = [];
   for (const row of computed) {
     const last = best.at(-1)?.[1];
-    const better = isMost ? last === undefined || row[objective] > last : last === undefined || row[objective] < last;
+    const better = last === undefined || (isMost ? row[objective] > last : row[objective] < last);
     if (row.state !== "feasible" && last === undefined) continue;
     best.push([row.candidate, row.state === "feasible" && better ? row[objective] : Number(last)]);
   }
@@ -35,7 +35,8 @@ function optionOf({ candidates, objective, study }) {
   const look = axisLook();
   return {
     grid: { left: 75, right: 20, top: 44, bottom: 50 }, legend: { top: 0 },
-    tooltip: { formatter: ({ seriesName, value }) => `${seriesName}\ncandidate ${value[0]}: ${number(value[1])}` },
+    tooltip: { formatter: ({ seriesName, value }) =>
+      `${seriesName}\ncandidate ${value[0]}: ${number(value[1])}` },
     xAxis: { type: "value", name: "candidate", nameLocation: "middle", nameGap: 28, minInterval: 1, ...look },
     yAxis: { type: isLog ? "log" : "value", scale: true, name: titleOf(objective), nameLocation: "middle",
       nameGap: 55, ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } },

@@ -25,14 +25,16 @@ function optionOf(view) {
   const shown = candidates.filter((row) => typeof row[x] === "number" && typeof row[y] === "number");
   if (shown.length === 0) return nothingYet("", "No candidate has both values.");
   const dataOf = (rows) => rows.map((row) => ({ value: [row[x], row[y], row.candidate], job: row.job_id }));
-  const series = (name, rows, look) => ({ type: "scatter", name, symbolSize: 8, data: dataOf(rows), ...look });
+  const series = (name, rows, look) => ({ type: "scatter", name, symbolSize: 8, data: dataOf(rows),
+    ...look });
   const others = shown.filter((row) => !row.on_front);
   const front = shown.filter((row) => row.on_front).sort((a, b) => a[x] - b[x]);
   const chosen = shown.filter((row) => selection.has(row.job_id));
   // Between two points of the front the better value of x is that of one of them.
-  const step = view.study.objectives.find(({ metric }) => metric === x)?.goal === "maximise" ? "start" : "end";
+  const goal = view.study.objectives.find(({ metric }) => metric === x)?.goal;
   const isFront = view.metrics.length === 2 && view.metrics.includes(x) && view.metrics.includes(y);
-  const axis = (column, gap) => ({ ...fittedAxis, name: titleOfMetric(column), nameLocation: "middle", nameGap: gap,
+  const axis = (column, gap) => ({ ...fittedAxis, name: titleOfMetric(column), nameLocation: "middle",
+    nameGap: gap,
     ...axisLook() });
   return {
     grid: { left: 75, right: 25, top: 44, bottom: 50 }, legend: { top: 0 },
@@ -44,8 +46,10 @@ function optionOf(view) {
         { itemStyle: { color: colour("quiet"), opacity: 0.6 } }),
       series("infeasible", others.filter(({ state }) => state === "infeasible"),
         { symbol: "emptyTriangle", itemStyle: { color: lineColour(1) } }),
-      series(view.hasFront ? "Pareto front" : "best", front, { symbolSize: 11, itemStyle: { color: lineColour(0) } }),
-      ...(isFront ? [{ type: "line", name: "Pareto front", silent: true, symbol: "none", step,
+      series(view.hasFront ? "Pareto front" : "best", front,
+        { symbolSize: 11, itemStyle: { color: lineColour(0) } }),
+      ...(isFront ? [{ type: "line", name: "Pareto front", silent: true, symbol: "none",
+        step: goal === "maximise" ? "start" : "end",
         color: lineColour(0), data: front.map((row) => [row[x], row[y]]) }] : []),
       { type: "scatter", name: "selected", silent: true, symbolSize: 17, z: 5, data: dataOf(chosen),
         itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 } },

@@ -7,7 +7,11 @@ import { routeTo } from "/core/route.js";
 const mostOverlaid = 6;
 
 /// Fills the bar. @param noun  for what is selected: "job"
-/** @param {HTMLElement} bar  @param {import("/study/selection.js").Selection} selection  @param {string} noun */
+/**
+ * @param {HTMLElement} bar
+ * @param {import("/study/selection.js").Selection} selection
+ * @param {string} noun
+ */
 export function drawChosen(bar, selection, noun = "job") {
   const { ids } = selection;
   bar.hidden = ids.length === 0;

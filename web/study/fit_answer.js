@@ -65,15 +65,17 @@ export function answerOf(fit) {
     missed || remarks.length > 0 ? h("ul", { class: "trouble" }, [missed, ...remarks].filter(Boolean)
       .map((remark) => h("li", {}, remark))) : null,
     first ? h("p", { class: "actions" },
-      h("a", { class: "button main", href: routeTo("jobs", first, { with: more.slice(0, 5).join(","), measured }) },
+      h("a", { class: "button main",
+        href: routeTo("jobs", first, { with: more.slice(0, 5).join(","), measured }) },
         best.job_ids.length === 1 ? "Best job" : "Best jobs"),
-      h("span", { class: "quiet small" }, `Point ${best.point}, sum of squares ${number(best.sum_of_squares)}, `
+      h("span", { class: "quiet small" },
+        `Point ${best.point}, sum of squares ${number(best.sum_of_squares)}, `
         + `${plural(best.job_ids.length, "job")}`)) : null].filter((each) => each !== null);
 }
 
 /// Table in a card with a name.
 function tableCard(title, help, head, rows) {
-  return h("section", { class: "card" }, h("h2", {}, title), help ? h("p", { class: "quiet small" }, help) : null,
+  return h("section", { class: "card" }, h("h2", {}, title), h("p", { class: "quiet small" }, help),
     h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
       h("table", {}, h("thead", {}, h("tr", {}, head)), h("tbody", {}, rows))));
 }
@@ -88,9 +90,11 @@ export function errorsCard({ signals, measurement_ids: measurements }) {
     .flatMap(([use, error]) => (error && typeof error === "object" ? [h("tr", {},
       h("td", {}, nameOfSignal(signal, signals, measurements)), h("td", {}, use),
       [error.samples, error.rms, 100 * error.relative_rms, error.measured_peak, error.predicted_peak]
-        .map((value) => h("td", { class: "number" }, number(value))), h("td", {}, unitOf(signal.channel) || "1"))]
+        .map((value) => h("td", { class: "number" }, number(value))),
+          h("td", {}, unitOf(signal.channel) || "1"))]
       : [])));
-  return tableCard("Prediction errors", "RMS of predicted less measured, in the signal's unit and over the RMS of the "
+  return tableCard("Prediction errors", "RMS of predicted less measured, in the signal's unit and over the "
+    + "RMS of the "
     + "measured signal about its mean.", [heading("Signal", ""), heading("Samples", ""), heading("Number"),
     heading("RMS"), heading("Relative RMS [%]"), heading("Measured peak"), heading("Predicted peak"),
     heading("Unit", "")], rows);
@@ -103,7 +107,9 @@ export function correlationCard({ correlation, parameters }) {
   const names = parameters.map(({ path }) => nameOfVariable(path));
   const isStrong = (value, i, j) => i !== j && Math.abs(value ?? 0) > strong;
   const rows = correlation.map((row, i) => h("tr", {}, h("th", { scope: "row" }, names[i]),
-    row.map((value, j) => h("td", { class: isStrong(value, i, j) ? "number marked" : "number" }, number(value, 2)))));
-  return tableCard("Correlation", `Parameters with a correlation beyond ±${strong}, which are marked, do nearly the same `
+    row.map((value, j) => h("td", { class: isStrong(value, i, j) ? "number marked" : "number" },
+      number(value, 2)))));
+  return tableCard("Correlation", `Parameters with a correlation beyond ±${strong}, which are marked, do `
+    + `nearly the same `
     + "to the signals.", [heading("Parameter", ""), ...names.map((name) => heading(name))], rows);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of a fit in the order in which they were tried: their sums of squares, and the values of the best so far.
+// Points of a fit in the order in which they were tried: their sums of squares, and the values of the best so
+// far.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { number } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
@@ -8,7 +9,8 @@ import { nameOfVariable, titleOfVariable, unitOfVariable } from "/study/variable
 
 /** @typedef {Api.Schemas["FitPointRows"][number] & { point: number, stage: string }} Point */
 
-/// Index of the best point among the first ones, for each of the points; only points with a sum of squares count.
+/// Index of the best point among the first ones, for each of the points; only points with a sum of squares
+/// count.
 /** @param {Point[]} points */
 export function bestSoFar(points) {
   let best = 0;
@@ -28,7 +30,11 @@ const pointAxis = () => ({ type: "value", name: "point", nameLocation: "middle",
 const grid = { left: 75, right: 20, top: 44, bottom: 50 };
 
 /// Values of a fit's variables over its points.
-/** @param {HTMLElement} element  @param {import("/study/fit_view.js").FitView} view  @param {AbortSignal} signal */
+/**
+ * @param {HTMLElement} element
+ * @param {import("/study/fit_view.js").FitView} view
+ * @param {AbortSignal} signal
+ */
 export function fitConvergence(element, view, signal) {
   return makeChart(element, () => {
     const points = computed(view);
@@ -39,7 +45,11 @@ export function fitConvergence(element, view, signal) {
 }
 
 /// Sums of squares over the points of a fit.
-/** @param {HTMLElement} element  @param {import("/study/fit_view.js").FitView} view  @param {AbortSignal} signal */
+/**
+ * @param {HTMLElement} element
+ * @param {import("/study/fit_view.js").FitView} view
+ * @param {AbortSignal} signal
+ */
 export function fitMisfit(element, view, signal) {
   return makeChart(element, () => {
     const points = computed(view);
@@ -63,8 +73,10 @@ const textOfPoint = ({ seriesName, value: [point, value, stage = ""] }) =>
 
 /// Marks of all points. @param valueOfPoint  its height
 function tried(points, valueOfPoint) {
-  return { type: "scatter", name: "points", symbolSize: 4, itemStyle: { color: colour("quiet"), opacity: 0.45 },
-    large: points.length > 2000, data: points.map((point) => [point.point, valueOfPoint(point), point.stage]) };
+  return { type: "scatter", name: "points", symbolSize: 4, itemStyle: { color: colour("quiet"),
+    opacity: 0.45 },
+    large: points.length > 2000,
+      data: points.map((point) => [point.point, valueOfPoint(point), point.stage]) };
 }
 
 /// All variables in one chart, each as a part of the way between its bounds.
@@ -75,8 +87,10 @@ function shareOption(view, points, width) {
   const series = view.study.parameters.map(({ path }, index) =>
     ({ type: "line", step: "end", symbol: "none", name: nameOfVariable(path), color: lineColour(index),
       data: best.map((each, at) => [points[at].point, 100 * view.partOf(path, Number(each[path]))]) }));
-  return { grid: { ...grid, top: 20 + legend.height }, legend: legend.option, xAxis: pointAxis(), tooltip: { trigger: "axis", formatter: (lines) =>
-    [`point ${lines[0].value[0]}`, ...lines.map(({ seriesName, value }) => `${seriesName}: ${number(value[1])} %`)]
+  return { grid: { ...grid, top: 20 + legend.height }, legend: legend.option, xAxis: pointAxis(),
+    tooltip: { trigger: "axis", formatter: (lines) =>
+    [`point ${lines[0].value[0]}`,
+      ...lines.map(({ seriesName, value }) => `${seriesName}: ${number(value[1])} %`)]
       .join("\n") },
   yAxis: { type: "value", min: 0, max: 100, name: "best so far, from lower to upper bound [%]",
     nameLocation: "middle", nameGap: 50, ...axisLook() }, series };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One signal of a fit: measured over predicted, and the residuals below, with the windows that are fitted and held back.
+// One signal of a fit: measured over predicted, and the residuals below, with the windows that are fitted and
+// held back.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
@@ -52,19 +53,25 @@ export function fitSignals(element, view, signal) {
 function optionOf(samples, zoom) {
   if (samples.length === 0) return nothingYet("", "No prediction yet.");
   const { channel } = samples[0];
-  const areas = (isNamed) => [["fitted", lineColour(2)], ["held_back", lineColour(4)]].flatMap(([use, fill]) =>
+  const uses = [["fitted", lineColour(2)], ["held_back", lineColour(4)]];
+  const areas = (isNamed) => uses.flatMap(([use, fill]) =>
     stretchesOf(samples, /** @type {Sample["use"]} */ (use)).map(([from, to]) =>
       [{ name: isNamed ? use.replace("_", " ") : "", xAxis: from, itemStyle: { color: fill, opacity: 0.13 } },
         { xAxis: to }]));
   const marked = (isNamed) => ({ silent: true, label: { color: colour("text"), position: "insideTop" },
     data: areas(isNamed) });
-  /** @type {(name: string, key: "measured" | "predicted" | "residual", index: number, panel: number) => any} */
+  /**
+   * @type {(name: string, key: "measured" | "predicted" | "residual", index: number, panel: number) => any}
+   */
   const line = (name, key, index, panel) =>
     ({ type: "line", name, symbol: "none", color: lineColour(index), xAxisIndex: panel, yAxisIndex: panel,
-      lineStyle: key === "measured" ? { width: 4, opacity: 0.45 } : { width: 1.3 }, sampling: "minmax", data: samples.map((sample) => [sample.t_s, sample[key]]) });
-  const time = (panel, more) => ({ type: "value", gridIndex: panel, scale: true, min: "dataMin", max: "dataMax",
+      lineStyle: key === "measured" ? { width: 4, opacity: 0.45 } : { width: 1.3 }, sampling: "minmax",
+        data: samples.map((sample) => [sample.t_s, sample[key]]) });
+  const time = (panel, more) => ({ type: "value", gridIndex: panel, scale: true, min: "dataMin",
+    max: "dataMax",
     ...axisLook(), ...more });
-  const value = (panel, name) => ({ type: "value", gridIndex: panel, scale: true, name, nameLocation: "middle",
+  const value = (panel, name) => ({ type: "value", gridIndex: panel, scale: true, name,
+    nameLocation: "middle",
     nameGap: 50, ...axisLook() });
   const look = axisLook();
   const short = { ...look.axisLabel, formatter: (t) => number(t, 5) };
@@ -72,9 +79,11 @@ function optionOf(samples, zoom) {
     legend: { top: 0 }, axisPointer: { link: [{ xAxisIndex: "all" }] },
     tooltip: { trigger: "axis", formatter: (lines) => textOf(lines, unitOf(channel)) },
     grid: [{ left: 75, right: 20, top: 40, height: "46%" }, { left: 75, right: 20, top: "64%", bottom: 85 }],
-    xAxis: [time(0, { axisLabel: { show: false } }), time(1, { name: "t [s]", nameLocation: "middle", nameGap: 26,
+    xAxis: [time(0, { axisLabel: { show: false } }),
+      time(1, { name: "t [s]", nameLocation: "middle", nameGap: 26,
       axisLabel: short })],
-    yAxis: [value(0, titleOf(channel)), value(1, `residual${unitOf(channel) ? ` [${unitOf(channel)}]` : ""}`)],
+    yAxis: [value(0, titleOf(channel)),
+      value(1, `residual${unitOf(channel) ? ` [${unitOf(channel)}]` : ""}`)],
     dataZoom: [{ type: "slider", xAxisIndex: [0, 1], bottom: 8, height: 26, ...zoom,
       textStyle: { color: colour("text") }, labelFormatter: (t) => `${number(t, 4)} s` },
     { type: "inside", xAxisIndex: [0, 1], zoomOnMouseWheel: "ctrl", ...zoom }],

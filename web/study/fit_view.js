@@ -46,7 +46,8 @@ export class FitView extends StudyView {
   more() { return [this.below]; }
 
   columns() {
-    return [["Parameter"], ["Value", "number"], ["Unit"], ["95 % interval, profile"], ["95 % interval, linearised"],
+    return [["Parameter"], ["Value", "number"], ["Unit"], ["95 % interval, profile"],
+      ["95 % interval, linearised"],
       ["Between its bounds"], ["Identified"]];
   }
 
@@ -77,8 +78,8 @@ export class FitView extends StudyView {
     const shown = this.study.signals[this.shownSignal];
     const wanted = shown ? JSON.stringify([this.shownSignal, this.study.best?.point]) : "";
     if (wanted === this.samplesOf) return;
-    this.samples = shown ? await findFitSignals(this.study.id, { measurement_id: shown.measurement_id, run: shown.run,
-      channel: shown.channel }, this.signal) : [];
+    this.samples = shown ? await findFitSignals(this.study.id,
+      { measurement_id: shown.measurement_id, run: shown.run, channel: shown.channel }, this.signal) : [];
     this.samplesOf = wanted;
   }
 
@@ -86,16 +87,19 @@ export class FitView extends StudyView {
     super.draw();
     this.predictedBy.textContent = this.study.best ? `predicted by point ${this.study.best.point}` : "";
     this.answer.replaceChildren(...answerOf(this.study));
-    this.below.replaceChildren(...[errorsCard(this.study), correlationCard(this.study)].filter((card) => card !== null));
+    this.below.replaceChildren(...[errorsCard(this.study), correlationCard(this.study)]
+      .filter((card) => card !== null));
   }
 
   drawChoices() {
     const { signals, measurement_ids: measurements, variables } = this.study;
     if (!this.variablePicker.hasChildNodes()) this.variablePicker.replaceChildren(choice("Parameter",
-      [["", "all, between their bounds"], ...variables.map((path) => [path, nameOfVariable(path)])], this.shownVariable,
+      [["", "all, between their bounds"], ...variables.map((path) => [path, nameOfVariable(path)])],
+        this.shownVariable,
       (path) => { this.shownVariable = path; this.drawn[0]?.draw(); }));
     if (signals.length === 0 || this.signalPicker.hasChildNodes()) return;
-    const names = signals.map((signal, index) => [String(index), nameOfSignal(signal, signals, measurements)]);
+    const names = signals.map((signal, index) => [String(index),
+      nameOfSignal(signal, signals, measurements)]);
     this.signalPicker.replaceChildren(choice("Signal", names, String(this.shownSignal), async (index) => {
       this.shownSignal = Number(index);
       await this.findSamples();
@@ -107,9 +111,11 @@ export class FitView extends StudyView {
     return this.study.parameters.map((parameter) => {
       const { path, value, linearised, profile, identified } = parameter;
       const told = identified === null ? "–" : identified ? "yes" : "no";
-      return h("tr", {}, h("td", { title: path }, nameOfVariable(path)), h("td", { class: "number" }, number(value, 5)),
+      return h("tr", {}, h("td", { title: path }, nameOfVariable(path)),
+        h("td", { class: "number" }, number(value, 5)),
         h("td", {}, unitOfVariable(path) || "1"), h("td", { class: "fixed" }, intervalText(profile, 5)),
-        h("td", { class: "fixed" }, intervalText(linearised, 5)), h("td", {}, intervalBar(parameter, this.isLog(path)),
+        h("td", { class: "fixed" }, intervalText(linearised, 5)),
+          h("td", {}, intervalBar(parameter, this.isLog(path)),
           h("span", { class: "small quiet" }, intervalText({ low: parameter.from, high: parameter.to }))),
         h("td", { class: identified === false ? "trouble" : null }, told));
     });

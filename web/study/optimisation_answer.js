@@ -6,7 +6,8 @@ import { routeTo } from "/core/route.js";
 
 const bounded = /_(at_most|at_least)$/;
 const ends = { running: "running", converged: "converged", budget: "budget used", stopped: "stopped" };
-const methods = { cma_es: "CMA-ES, an evolution strategy", nsga2: "NSGA-II, which looks for the Pareto front" };
+const methods = { cma_es: "CMA-ES, an evolution strategy",
+  nsga2: "NSGA-II, which looks for the Pareto front" };
 
 /// Title of a column of candidates: variable, metric, or metric with a bound.
 /** @param {string} column */
@@ -24,8 +25,8 @@ const valueText = (column, value) => `${number(value)}${unitOf(column) ? ` ${uni
 export function aimOf({ objectives, variables, request, method }) {
   const goals = objectives.map(({ metric, goal = "minimise" }) => `${goal} ${nameOf(metric).toLowerCase()}`);
   const bounds = (request.bounds ?? []).map(({ metric, minimum, maximum }) =>
-    `${nameOf(metric).toLowerCase()} ${minimum === undefined ? `at most ${exact(maximum)}` : `at least ${exact(minimum)}`}`
-      + `${unitOf(metric) ? ` ${unitOf(metric)}` : ""}`);
+    [nameOf(metric).toLowerCase(), minimum === undefined ? "at most" : "at least", exact(minimum ?? maximum),
+      unitOf(metric)].join(" ").trim());
   const free = variables.map((path) => nameOf(path).toLowerCase()).join(", ");
   const text = `${goals.join(", ")} over ${free}${bounds.length > 0 ? `, with ${bounds.join(", ")}` : ""}`;
   return `${text.charAt(0).toUpperCase()}${text.slice(1)}. Method: ${methods[method]}.`;
@@ -46,17 +47,20 @@ export function shortAnswerOf({ best, front, objectives, error }) {
 /** @param {Api.Optimisation} study  @returns {HTMLElement[]} */
 export function answerOf(study) {
   const { state, best, best_repeats: repeats, starts, objectives, lost_reasons: reasons } = study;
-  const lost = Object.entries(reasons).map(([reason, count]) => `${plural(count, "candidate")}: ${reason}`).join("; ");
+  const lost = Object.entries(reasons)
+    .map(([reason, count]) => `${plural(count, "candidate")}: ${reason}`).join("; ");
   const trouble = lost ? [h("p", { class: "trouble" }, `Candidates without a value: ${lost}.`)] : [];
   const told = h("p", { class: "big" }, `${state === "running" ? "So far: " : ""}${shortAnswerOf(study)}.`);
   if (objectives.length > 1) return [told, ...trouble];
   if (!best) {
-    return [h("p", { class: "big" }, state === "running" ? "No feasible candidate yet." : "No feasible candidate."),
+    return [h("p", { class: "big" }, state === "running" ? "No feasible candidate yet."
+      : "No feasible candidate."),
       ...trouble];
   }
   const [job, ...more] = best.job_ids;
   const ended = starts.map(({ end, candidates, generations }) =>
-    `${ends[end]} after ${plural(candidates, "candidate")} in ${plural(generations, "generation")}`).join("; ");
+    `${ends[end]} after ${plural(candidates, "candidate")} in ${plural(generations, "generation")}`)
+    .join("; ");
   return [told, h("p", {}, `${plural(starts.length, "start")}: ${ended}.`
       + `${starts.length > 1 ? ` ${repeats} of ${starts.length} came within 1 % of the best.` : ""}`),
     h("p", { class: "actions" },

@@ -55,7 +55,8 @@ export class OptimisationView extends StudyView {
 
   charts() {
     return [{ title: "Best so far", make: bestSoFar, above: this.objectivePicker },
-      { title: this.hasFront ? "Pareto front" : "Candidates", make: candidateScatter, above: this.axisPicker },
+      { title: this.hasFront ? "Pareto front" : "Candidates", make: candidateScatter,
+        above: this.axisPicker },
       { title: "Parallel coordinates", wide: true,
         make: (element, view, signal) => parallelChart(element, view.asLines, signal),
         above: h("p", { class: "quiet small" },
@@ -78,7 +79,8 @@ export class OptimisationView extends StudyView {
     const { state, progress, candidates, error } = this.study;
     const counts = Object.entries(candidates).filter(([, count]) => count > 0)
       .map(([each, count]) => `${count.toLocaleString("en")} ${each}`).join(", ");
-    return `${state}: ${Math.floor(100 * progress)} %; candidates: ${counts || "none"}${error ? `; ${error}` : ""}`;
+    return `${state}: ${Math.floor(100 * progress)} %; candidates: `
+      + `${counts || "none"}${error ? `; ${error}` : ""}`;
   }
 
   async findMore() {
@@ -112,7 +114,8 @@ export class OptimisationView extends StudyView {
       (name) => { this[key] = name; this.drawn[1]?.draw(); });
     const selectFront = h("button", { onclick: () => this.selection.set(this.study.front
       .map(({ job_ids: [job] }) => job)) }, "Select the front");
-    this.axisPicker.replaceChildren(axis("x axis", "x"), axis("y axis", "y"), this.hasFront ? selectFront : "");
+    this.axisPicker.replaceChildren(axis("x axis", "x"), axis("y axis", "y"),
+      this.hasFront ? selectFront : "");
     this.objectivePicker.replaceChildren(choice("Objective",
       this.metrics.map((metric) => [metric, titleOf(metric)]), this.objective,
       (metric) => { this.objective = metric; this.drawn[0]?.draw(); }));
@@ -134,7 +137,8 @@ export class OptimisationView extends StudyView {
       ...[...this.metrics, ...this.bounds].map((metric) => metrics[metric])];
     return h("tr", { class: box.checked ? "selected" : null }, h("td", {}, box),
       numbers.map((value) => h("td", { class: "number" }, number(/** @type {any} */ (value)))),
-      h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", first, { with: more.slice(0, 5).join(",") }) },
+      h("td", { class: "fixed" },
+        h("a", { href: routeTo("jobs", first, { with: more.slice(0, 5).join(",") }) },
         more.length === 0 ? "job" : plural(more.length + 1, "job"))));
   }
 }

@@ -60,7 +60,8 @@ export class StudyView {
     return this.study.name || this.study.id;
   }
 
-  /// Each chart: its title, the function that makes it, what stands above it, whether it takes the whole width.
+  /// Each chart: its title, the function that makes it, what stands above it, whether it takes the whole
+  /// width.
   /**
    * @returns {{ title: string, above?: HTMLElement, wide?: boolean,
    *   make: (element: HTMLElement, view: any, signal: AbortSignal) => Promise<Chart> }[]}

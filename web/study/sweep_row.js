@@ -13,7 +13,8 @@ const shownOfId = 7;  // of its letters the last ones: the first tell the time a
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
 /// Page and name of the kinds of studies, by the first letters of their ids.
-const studyKinds = { sch: ["searches", "search"], fit: ["fits", "fit"], opt: ["optimisations", "optimisation"] };
+const studyKinds = { sch: ["searches", "search"], fit: ["fits", "fit"],
+  opt: ["optimisations", "optimisation"] };
 
 /// An id in one line: "swp_…f9mqab6".
 const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shownOfId)}`;

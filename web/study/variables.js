@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the variables of fits and optimisations: parameters of jobs, of one run, and quantities of sensors.
+// Names of the variables of fits and optimisations: parameters of jobs, of one run, and quantities of
+// sensors.
 import { nameOf, unitOf } from "/core/format.js";
 
 const ofSensor = /^sensor\.(.+)\.(gain|offset|delay_s)$/;
