@@ -15,13 +15,13 @@ export const usedChannels = ({ channels, time }) =>
 
 /// A channel as JSON, without what is as usual.
 /** @param {ChannelEntry} entry */
-function channelOf({ column, name, sign, gain, offset, delay_s: delay, low_pass_hz: low }) {
+function channelOf({ source, name, sign, gain, offset, delay_s: delay, low_pass_hz: low }) {
   /** @type {Record<string, [string, number | string]>} */
   const numbers = { sign: [sign, 1], gain: [gain, 1], offset: [offset, 0], delay_s: [delay, 0],
     low_pass_hz: [low, ""] };
   const given = Object.entries(numbers)
     .filter(([, [text, usual]]) => text.trim() !== "" && Number(text) !== usual);
-  return { name: name.trim(), ...(column === name ? {} : { column }),
+  return { name: name.trim(), ...(source === name.trim() ? {} : { column: source }),
     ...Object.fromEntries(given.map(([key, [text]]) => [key, Number(text)])) };
 }
 

@@ -3,7 +3,7 @@
 import { readNpz } from "/measure/npz.js";
 
 /**
- * @typedef {{ column: string, name: string, isUsed: boolean, sign: string, gain: string, offset: string,
+ * @typedef {{ column: string, source: string, name: string, isUsed: boolean, sign: string, gain: string, offset: string,
  *   delay_s: string, low_pass_hz: string }} ChannelEntry
  * @typedef {{ name: string, parameters: string, columns: Record<string, number[]> }} RunEntry
  * @typedef {{ name: string, kind: "csv" | "npz" | "json", time: string, columns: string[], channels:
@@ -14,7 +14,7 @@ import { readNpz } from "/measure/npz.js";
 const usualTimes = ["time_s", "t_s"];
 
 /** @type {(column: string, known?: any) => ChannelEntry} */
-const entryOf = (column, known = {}) => ({ column, name: known.name ?? column.trim(), isUsed: true,
+const entryOf = (column, known = {}) => ({ column, source: known.column ?? column, name: known.name ?? column.trim(), isUsed: true,
   sign: String(known.sign ?? 1), gain: String(known.gain ?? 1), offset: String(known.offset ?? 0),
   delay_s: String(known.delay_s ?? 0), low_pass_hz: String(known.low_pass_hz ?? "") });
 

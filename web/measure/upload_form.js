@@ -108,13 +108,12 @@ class UploadForm {
     const runs = this.draft?.runs ?? [];
     this.runFaults = runs.map(() => h("p", { class: "trouble small", hidden: true }));
     return h("details", { open: runs.some(({ parameters }) => parameters !== "") },
-      h("summary", {}, "Known parameters of the runs"), runs.flatMap((run, index) => {
+      h("summary", {}, "Known parameters of the runs"), runs.map((run, index) => {
         const area = h("textarea", { rows: 2, class: "wide", value: run.parameters,
           placeholder: "{\"crank_velocity_rad_s\": 10}",
           oninput: () => { run.parameters = area.value; this.changed(); } });
-        return [h("label", { class: "choice" },
-          h("span", {}, `${run.name}: JSON object of parameters of a job`), area),
-          this.runFaults[index]];
+        return h("div", {}, h("label", { class: "choice" },
+          h("span", {}, `${run.name}: JSON object of parameters of a job`), area), this.runFaults[index]);
       }));
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The answer of a fit: in sentences, as errors of its signals, and as the correlation of its parameters.
 import { h } from "/core/dom.js";
-import { nameOf, number, plural, unitOf } from "/core/format.js";
+import { number, plural, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { writeOverlays } from "/run/measured.js";
 import { nameOfSignal } from "/study/fit_signals.js";
@@ -45,13 +45,14 @@ function overlaysOf({ signals, request }) {
 /// What came of a fit in sentences, what the signals do not tell, and the jobs of the best point.
 /** @param {Api.Fit} fit */
 export function answerOf(fit) {
-  const { state, parameters, signals, basis, divergence, local_end: end, remarks, best, thinning } = fit;
+  const { state, parameters, signals, measurement_ids: measurements, basis, divergence, local_end: end, remarks,
+    best, thinning } = fit;
   if (!best) return [h("p", { class: "quiet" }, state === "running" ? "No point has been computed yet."
     : "No point has a value.")];
   const sentence = `${state === "running" ? "So far: " : ""}${shortAnswerOf(fit)}.`;
-  const heldBack = signals.flatMap(({ channel, held_back: error }) => (error
-    ? [`${nameOf(channel)}: what is held back is predicted with an error of `
-      + `${number(100 * error.relative_rms, 3)} % of the signal.`] : []));
+  const heldBack = signals.flatMap((signal) => (signal.held_back
+    ? [`${nameOfSignal(signal, signals, measurements)}: what is held back is predicted with an error of `
+      + `${number(100 * signal.held_back.relative_rms, 3)} % of the signal.`] : []));
   const unknown = parameters.filter(({ identified }) => identified === false);
   const missed = unknown.length === 0 ? ""
     : `The signals do not tell ${unknown.map(({ path }) => nameOfVariable(path).toLowerCase()).join(", ")}.`;
@@ -71,6 +72,14 @@ export function answerOf(fit) {
       h("span", { class: "quiet small" },
         `Point ${best.point}, sum of squares ${number(best.sum_of_squares)}, `
         + `${plural(best.job_ids.length, "job")}`)) : null].filter((each) => each !== null);
+}
+
+/// A sentence on the points without a value, with their reasons; nothing if all have one.
+/** @param {import("/study/fit_points.js").Point[]} points */
+export function lostOf(points) {
+  const lost = Map.groupBy(points.filter(({ lost_reason: reason }) => reason), (point) => point.lost_reason);
+  const told = [...lost].map(([reason, { length }]) => `${length.toLocaleString("en")} ${reason}`).join(", ");
+  return told ? [h("p", { class: "trouble" }, `Points without a value: ${told}.`)] : [];
 }
 
 /// Table in a card with a name.

@@ -4,7 +4,7 @@ import { findFitSignals, fits } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { number, plural } from "/core/format.js";
 import { routeTo } from "/core/route.js";
-import { answerOf, correlationCard, errorsCard, stageNames } from "/study/fit_answer.js";
+import { answerOf, correlationCard, errorsCard, lostOf, stageNames } from "/study/fit_answer.js";
 import { bestSoFar, computed, fitConvergence, fitMisfit } from "/study/fit_points.js";
 import { fitSignals, nameOfSignal } from "/study/fit_signals.js";
 import { intervalBar, intervalText } from "/study/interval_bar.js";
@@ -60,7 +60,7 @@ export class FitView extends StudyView {
   }
 
   async findMore() {
-    const columns = ["point", "stage", "sum_of_squares", ...this.study.variables];
+    const columns = ["point", "stage", "sum_of_squares", "lost_reason", ...this.study.variables];
     this.points = await fits.results(this.study.id, { fields: columns.join(",") }, this.signal);
     await this.findSamples();
     if (this.study.state === "running") this.#showBestSoFar();
@@ -86,7 +86,7 @@ export class FitView extends StudyView {
   draw() {
     super.draw();
     this.predictedBy.textContent = this.study.best ? `predicted by point ${this.study.best.point}` : "";
-    this.answer.replaceChildren(...answerOf(this.study));
+    this.answer.replaceChildren(...answerOf(this.study), ...lostOf(this.points));
     this.below.replaceChildren(...[errorsCard(this.study), correlationCard(this.study)]
       .filter((card) => card !== null));
   }
