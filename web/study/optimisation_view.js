@@ -76,11 +76,12 @@ export class OptimisationView extends StudyView {
   }
 
   statusText() {
-    const { state, progress, candidates, error } = this.study;
+    const { state, candidates, budget, error } = this.study;
+    const done = candidates.feasible + candidates.infeasible + candidates.lost;
     const counts = Object.entries(candidates).filter(([, count]) => count > 0)
       .map(([each, count]) => `${count.toLocaleString("en")} ${each}`).join(", ");
-    return `${state}: ${Math.floor(100 * progress)} %; candidates: `
-      + `${counts || "none"}${error ? `; ${error}` : ""}`;
+    return `${state}: ${done.toLocaleString("en")} of at most ${plural(budget, "candidate")}`
+      + `${counts ? `; ${counts}` : ""}${error ? `; ${error}` : ""}`;
   }
 
   async findMore() {
