@@ -10,6 +10,8 @@ import { addVariables, readVariables, rowOfVariable, variableFields } from "/for
 
 const numbers = ["budget", "population", "starts", "seed"];
 const goals = [["minimise", "minimise"], ["maximise", "maximise"]];
+const methods = [["", "the usual one"], ["cma_es", "CMA-ES"], ["nelder_mead", "Nelder-Mead, local"],
+  ["bobyqa", "BOBYQA, local"], ["nsga2", "NSGA-II, of several objectives"]];
 const sides = [["maximum", "at most"], ["minimum", "at least"]];
 const textOf = (value) => (value === undefined ? "" : String(value));
 
@@ -23,6 +25,7 @@ export class OptimisationForm extends StudyForm {
     super(fields, schemas, request);
     this.metrics = schemas.SearchRequest.properties.metric.enum;
     this.state.over = readVariables(request.over);
+    this.state.method = request.method ?? "";
     this.state.objectives = (request.objectives ?? [{}]).map(({ metric = "", goal = "minimise", quantile }) =>
       ({ metric, goal, quantile: textOf(quantile) }));
     this.state.bounds = (request.bounds ?? []).map(({ metric, minimum, maximum, quantile }) =>
@@ -52,7 +55,9 @@ export class OptimisationForm extends StudyForm {
       draw: (item, index) => itemRow(this, `bounds.${index}`, [metric(item), choice("Side", sides, item.side,
         (side) => { item.side = side; this.update(); }), itemText(this, "Value", item, "value"),
           quantile(item)]) }),
-    list, h("h2", {}, "Budget"), ...numbers.map((key) => this.number(key)),
+    list, h("h2", {}, "Method and budget"),
+    ...itemRow(this, "method", [choice("Method", methods, this.state.method,
+      (method) => { this.state.method = method; this.update(); })]), ...numbers.map((key) => this.number(key)),
     h("h2", {}, "Linkage and axes"),
     h("p", { class: "quiet small" }, "A candidate has a job for each combination of the parameters that "
       + "have a list or "
@@ -80,6 +85,7 @@ export class OptimisationForm extends StudyForm {
       return bound;
     });
     if (bounds.length > 0) request.bounds = bounds;
+    if (this.state.method) request.method = this.state.method;
     this.addNumbers(numbers, request, problems);
     return { request: JSON.parse(JSON.stringify({ ...request, sweep, replicates, priority, reuse })),
       problems };
@@ -96,7 +102,7 @@ export class OptimisationForm extends StudyForm {
   rowOf(pointer) {
     const [, key, index] = pointer.split("/");
     if (["objectives", "bounds"].includes(key)) return `${key}.${index ?? 0}`;
-    if (numbers.includes(key)) return key;
+    if (["method", ...numbers].includes(key)) return key;
     return rowOfVariable(pointer, this.state.over) || super.rowOf(pointer);
   }
 }

@@ -12,17 +12,18 @@ const strong = 0.9;  // correlation from which on it is marked
 
 /** @type {Record<Api.Fit["stage"], string>} */
 export const stageNames = { design: "points that fill the space", divergence: "points beside the best one",
-  scatter: "scatter of features", global: "CMA-ES", local: "least squares", profile: "profile likelihood",
+  scatter: "scatter of features", global: "CMA-ES", local: "least squares",
+  scan: "each parameter over its span", profile: "profile likelihood",
   prediction: "prediction of runs held back", ended: "ended" };
 
 const bases = { point_wise: "The signals are compared point by point.",
   features: "Features of the signals are compared: peaks, impacts, envelope and bands." };
 
 /** @param {Api.Schemas["FittedParameter"]} parameter */
-function sentenceOf({ path, value, profile, linearised }) {
+function sentenceOf({ path, value, profile, range, linearised }) {
   const unit = unitOfVariable(path);
-  const interval = profile ?? linearised;
-  const sure = interval ? ` (95 %: ${intervalText(interval, 5)})` : "";
+  const interval = profile ?? range ?? linearised;
+  const sure = interval ? ` (${range ? "range" : "95 %"}: ${intervalText(interval, 5)})` : "";
   return `${nameOfVariable(path).toLowerCase()} ${number(value, 5)}${unit ? ` ${unit}` : ""}${sure}`;
 }
 

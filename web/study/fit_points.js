@@ -100,7 +100,7 @@ function shareOption(view, points, width) {
 /** @param {import("/study/fit_view.js").FitView} view  @param {Point[]} points  @param {string} path */
 function valueOption(view, points, path) {
   const parameter = view.study.parameters.find((each) => each.path === path);
-  const interval = parameter?.profile ?? parameter?.linearised;
+  const interval = parameter?.profile ?? parameter?.range ?? parameter?.linearised;
   const unit = unitOfVariable(path);
   const band = interval && interval.low !== null && interval.high !== null
     ? { silent: true, itemStyle: { color: lineColour(0), opacity: 0.25 },

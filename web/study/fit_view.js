@@ -47,8 +47,7 @@ export class FitView extends StudyView {
 
   columns() {
     return [["Parameter"], ["Value", "number"], ["Unit"], ["95 % interval, profile"],
-      ["95 % interval, linearised"],
-      ["Between its bounds"], ["Identified"]];
+      ["95 % interval, linearised"], ["Range"], ["Between its bounds"], ["Identified"]];
   }
 
   statusText() {
@@ -109,12 +108,13 @@ export class FitView extends StudyView {
 
   rows() {
     return this.study.parameters.map((parameter) => {
-      const { path, value, linearised, profile, identified } = parameter;
+      const { path, value, linearised, profile, range, identified } = parameter;
       const told = identified === null ? "–" : identified ? "yes" : "no";
       return h("tr", {}, h("td", { title: path }, nameOfVariable(path)),
         h("td", { class: "number" }, number(value, 5)),
         h("td", {}, unitOfVariable(path) || "1"), h("td", { class: "fixed" }, intervalText(profile, 5)),
         h("td", { class: "fixed" }, intervalText(linearised, 5)),
+        h("td", { class: "fixed" }, intervalText(range, 5)),
           h("td", {}, intervalBar(parameter, this.isLog(path)),
           h("span", { class: "small quiet" }, intervalText({ low: parameter.from, high: parameter.to }))),
         h("td", { class: identified === false ? "trouble" : null }, told));

@@ -14,17 +14,18 @@ export function intervalText(interval, digits = 4) {
   return `${number(interval.low, digits)} to ${number(interval.high, digits)}`;
 }
 
-/// The broad bar is the interval by the profile, the thin one the linearised one, the tick the value.
+/// The broad bar is the interval by the profile, or the range, the thin one the linearised interval, the tick the
+/// value.
 /**
  * @param {Api.Schemas["FittedParameter"]} parameter
  * @param {boolean} isLog
  */
-export function intervalBar({ value, linearised, profile, from, to }, isLog) {
+export function intervalBar({ value, linearised, profile, range, from, to }, isLog) {
   const scaled = (x) => (isLog ? Math.log(x) : x);
   const placeOf = (x) => Math.min(Math.max((scaled(x) - scaled(from)) / (scaled(to) - scaled(from)), 0), 1);
   const bar = h("div", { class: "interval", role: "img",
-    "aria-label": `${number(value)} between the bounds ${number(from)} and ${number(to)}; 95 %: `
-      + `${intervalText(profile ?? linearised)}` });
+    "aria-label": `${number(value)} between the bounds ${number(from)} and ${number(to)}; `
+      + `${range ? "range" : "95 %"}: ${intervalText(profile ?? range ?? linearised)}` });
   /** @type {(name: string, interval: Interval | null) => void} */
   const add = (name, interval) => {
     if (!interval) return;
@@ -36,7 +37,7 @@ export function intervalBar({ value, linearised, profile, from, to }, isLog) {
     bar.append(element);
   };
   add("linearised", linearised);
-  add("profile", profile);
+  add("profile", profile ?? range);
   if (value !== null) {
     const tick = h("span", { class: "value" });
     tick.style.left = `${100 * placeOf(value)}%`;
