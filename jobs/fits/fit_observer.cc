@@ -157,7 +157,7 @@ std::vector<double> FitObserver::calc_deviations(const std::vector<double>& resi
     const std::size_t count = signal.compared.t.size();
     const double rms = rms_of(std::span(residuals).subspan(first, count));
     const double noise = signal.noise / *signal.measured.sigma;
-    deviations.push_back(count == 0 ? 1.0 : std::max({rms, noise, kLeastDeviation}));
+    deviations.push_back(count == 0 ? 1.0 : std::max(std::hypot(rms, noise), signal.weight * kLeastDeviation));
     first += count;
   }
   return deviations;
@@ -165,12 +165,14 @@ std::vector<double> FitObserver::calc_deviations(const std::vector<double>& resi
 
 double FitObserver::calc_loss(const std::vector<double>& deviations) const {
   double loss = 0.0;
+  double samples = 0.0;
   for (std::size_t k = 0; k < deviations.size(); ++k) {
     const FitSignal& signal = problem_->signals[k];
     const double count = signal.weight * signal.weight * static_cast<double>(signal.compared.t.size());
     loss += count * std::log(deviations[k]);
+    samples += count;
   }
-  return loss;
+  return loss / samples;
 }
 
 std::vector<double> FitObserver::scale_signals(std::vector<double> residuals,

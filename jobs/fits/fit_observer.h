@@ -52,11 +52,12 @@ class FitObserver {
   [[nodiscard]] bool is_noise(const std::vector<double>& residuals) const;
   /// Part of the sum of squares beyond that of the noise.
   [[nodiscard]] double misfit(const std::vector<double>& residuals) const;
-  /// Deviation of each signal: RMS of its residuals, or their noise if the RMS is less. 1: no sample of it is
-  /// compared.
+  /// Deviation of each signal: RMS of its residuals and its noise together, so that a fit is not led by what
+  /// is below the noise. 1: no sample of it is compared.
   [[nodiscard]] std::vector<double> calc_deviations(const std::vector<double>& residuals) const;
-  /// Negative logarithm of the likelihood if the noise of each signal is unknown. Signals that the model
-  /// reproduces count for more than those that it does not: a sum of squares weighs them the other way round.
+  /// Negative logarithm of the likelihood if the noise of each signal is unknown, for each sample. Signals
+  /// that the model reproduces count for more than those that it does not: a sum of squares weighs them the
+  /// other way round.
   [[nodiscard]] double calc_loss(const std::vector<double>& deviations) const;
   /// Residuals of each signal times its factor.
   [[nodiscard]] std::vector<double> scale_signals(std::vector<double> residuals,

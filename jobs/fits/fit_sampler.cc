@@ -47,7 +47,7 @@ constexpr std::size_t kMostSearches = 8;
 constexpr std::size_t kScanPoints = 160;
 constexpr std::size_t kMostScanValues = 32;
 constexpr std::size_t kFewestScanValues = 8;
-/// Gain, as part of the number of samples, after which least squares begin anew.
+/// Gain of the loss after which least squares begin anew.
 constexpr double kLeastGain = 0.01;
 /// Least size of the box of a search, as part of a span.
 constexpr double kLeastBox = 1e-3;
@@ -293,7 +293,7 @@ FitSampler::Points FitSampler::run_global() {
 /// Whether the best point is enough better than an earlier one to search on from it.
 bool FitSampler::gains_since(const FitPoint& earlier) {
   const double gain = loss_of(earlier).value() - loss_of(best_).value();
-  return gain > kLeastGain * static_cast<double>(jacobian_.rows()) && summary_.points.size() < global_limit_;
+  return gain > kLeastGain && summary_.points.size() < global_limit_;
 }
 
 void FitSampler::begin_local(const FitPoint& start, std::size_t step) {
@@ -325,11 +325,12 @@ void FitSampler::weigh_signals(const FitPoint& point) {
   const auto residuals = residuals_of(point);
   if (!residuals) return;
   const std::vector<double> deviations = observer_->calc_deviations(*residuals);
+  double largest = std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < deviations.size(); ++k) {
     if (problem_.signals[k].compared.t.empty()) continue;
     factors_[k] = problem_.signals[k].weight / deviations[k];
+    largest = std::max(largest, factors_[k]);
   }
-  const double largest = *std::ranges::max_element(factors_);
   for (double& factor : factors_) factor /= largest;
 }
 
@@ -360,19 +361,36 @@ double FitSampler::find_last_step(const std::vector<double>& residuals) const {
   return std::clamp(steps[steps.size() / 2], kDifferenceSteps.back(), kDifferenceSteps.front());
 }
 
-void FitSampler::end_local(LeastSquaresResult result) {
-  if (!result.x.empty() && result.end != FitEnd::kStartFailed && is_point_wise()) {
-    base_points_.push_back(result.x);
-    choose_best(base_points_);
-    if (step_ == 0 && !ends_) set_box(result);
-    if (!ends_ && step_ + 1 < kDifferenceSteps.size()) return begin_local(best_, step_ + 1);
-    const std::vector<double> residuals = residuals_of(best_).value();
-    leaves_noise_ = observer_->is_noise(residuals) &&
-                    observer_->misfit(residuals) < kNoiseMisfit * sum_of_squares(residuals);
-    jacobian_ = result.jacobian;
-    if (!ends_ && !leaves_noise_ && gains_since(pass_start_)) return begin_local(best_, 0);
-    if (!ends_) return !leaves_noise_ && summary_.points.size() < global_limit_ ? begin_scan() : end_search();
+void FitSampler::judge_residuals(const std::vector<double>& residuals) {
+  leaves_noise_ = observer_->is_noise(residuals) &&
+                  observer_->misfit(residuals) < kNoiseMisfit * sum_of_squares(residuals);
+}
+
+/// After the shortest step the best point is judged, and the search goes on as long as it leaves more than
+/// noise.
+void FitSampler::end_pass(const LeastSquaresResult& result) {
+  base_points_.push_back(result.x);
+  choose_best(base_points_);
+  if (step_ == 0) set_box(result);
+  if (step_ + 1 < kDifferenceSteps.size()) return begin_local(best_, step_ + 1);
+  judge_residuals(residuals_of_best());
+  std::vector<double> inverse_factors;
+  for (const double factor : factors_) inverse_factors.push_back(1.0 / factor);
+  jacobian_ = result.jacobian;
+  for (auto column : jacobian_.colwise()) {
+    const std::vector<double> unscaled =
+        observer_->scale_signals({column.begin(), column.end()}, inverse_factors);
+    column = Eigen::Map<const Eigen::VectorXd>(unscaled.data(), column.size());
   }
+  if (leaves_noise_) end_search();
+  else if (gains_since(pass_start_)) begin_local(best_, 0);
+  else begin_scan();
+}
+
+void FitSampler::end_local(LeastSquaresResult result) {
+  const bool is_fit = !result.x.empty() && result.end != FitEnd::kStartFailed && is_point_wise();
+  if (is_fit && !ends_) return end_pass(result);
+  if (is_fit) judge_residuals(as_vector(result.residuals));
   summary_.local_end =
       result.end == FitEnd::kMostEvaluations ? "The budget ended the least squares." : result.message;
   summary_.stage = FitStage::kPrediction;
@@ -412,7 +430,10 @@ void FitSampler::begin_scan() {
   summary_.stage = FitStage::kScan;
   scan_.clear();
   const std::size_t n = best_.size();
-  const std::size_t values = std::clamp(kScanPoints / n, kFewestScanValues, kMostScanValues);
+  const std::size_t allowed = (global_limit_ - std::min(global_limit_, summary_.points.size())) / n;
+  const std::size_t values =
+      std::min(allowed, std::clamp(kScanPoints / n, kFewestScanValues, kMostScanValues));
+  if (values < 2) return end_search();
   for (std::size_t k = 0; k < values; ++k) {
     const UnitPoint parts(n, (static_cast<double>(k) + 0.5) / static_cast<double>(values));
     const FitPoint even = point_at(problem_, parts);
@@ -440,7 +461,7 @@ void FitSampler::end_search() {
     return begin_global();
   }
   ends_ = true;
-  last_step_ = find_last_step(residuals_of(best_).value());
+  last_step_ = find_last_step(residuals_of_best());
   begin_local(best_, step_);
 }
 

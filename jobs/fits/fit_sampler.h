@@ -72,6 +72,8 @@ class FitSampler final : public StudySampler {
   void set_basis(FitBasis basis);
   /// Sums of all points by features and their scale.
   void sum_features();
+  void end_pass(const LeastSquaresResult& result);
+  void judge_residuals(const std::vector<double>& residuals);
   [[nodiscard]] double find_last_step(const std::vector<double>& residuals) const;
   void end_local(LeastSquaresResult result);
 
@@ -90,6 +92,8 @@ class FitSampler final : public StudySampler {
   /// Residuals as the basis has them; empty if the jobs have failed.
   [[nodiscard]] std::optional<std::vector<double>> residuals_of(const FitPoint& point);
   [[nodiscard]] std::vector<double> feature_residuals(const std::vector<double>& features) const;
+  /// @throws std::runtime_error if the trajectories cannot be read again
+  [[nodiscard]] std::vector<double> residuals_of_best();
   /// FitPointSummary::loss, a mean for features; empty as residuals_of() is.
   [[nodiscard]] std::optional<double> loss_of(const FitPoint& point);
   void choose_best(const Points& among);
@@ -117,7 +121,7 @@ class FitSampler final : public StudySampler {
   std::optional<PopulationSearch> population_;
   std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
   FitPoint box_centre_;
-  Eigen::MatrixXd jacobian_;  ///< of the least squares that ended last
+  Eigen::MatrixXd jacobian_;  ///< of the least squares that ended last, of residuals without factors
   std::size_t search_ = 0;    ///< number of the population search
   bool leaves_noise_ = true;  ///< whether the residuals of the least squares are noise
   bool ends_ = false;         ///< whether the last least squares have begun
@@ -127,7 +131,7 @@ class FitSampler final : public StudySampler {
   std::size_t global_limit_ = 0, search_limit_ = 0, local_limit_ = 0;  ///< numbers of points
   Evaluations evaluations_;                                            ///< of the least squares
   FitPoint local_start_;
-  FitPoint pass_start_;  ///< start of the least squares with the longest step
+  FitPoint pass_start_;     ///< start of the least squares with the longest step
   double last_step_ = 0.0;  ///< of the differences for the intervals
   std::optional<LeastSquaresResult> local_;
   std::size_t restarts_ = 0;  ///< of the least squares, from better points that profiles met

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "jobs/fits/fit_cases.h"
@@ -165,6 +166,12 @@ std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& poin
   if (count == 0.0) return std::nullopt;
   for (double& value : mean) value /= count;
   return feature_residuals(mean);
+}
+
+std::vector<double> FitSampler::residuals_of_best() {
+  auto residuals = residuals_of(best_);
+  if (!residuals) throw std::runtime_error("the trajectories of the best point cannot be read again");
+  return std::move(*residuals);
 }
 
 std::optional<double> FitSampler::loss_of(const FitPoint& point) {

@@ -41,7 +41,7 @@ struct FitPointSummary {
   FitPointState state = FitPointState::kPending;
   std::optional<double> sum{};       ///< of the squares of residuals; of samples until the basis is known
   double loss = 0.0;                 ///< by which points are compared, if there is a sum
-  std::vector<double> deviations{};  ///< FitObserver::calc_deviations(); empty: features are compared
+  std::vector<double> deviations{};  ///< FitObserver::calc_deviations(), of samples
   std::optional<std::string> lost_reason{};  ///< as OptimisationCandidate has it
   std::vector<std::string> job_ids{};        ///< one a run; empty where there is no job
 };

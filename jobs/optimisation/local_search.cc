@@ -6,16 +6,23 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 #include <nlopt.h>
 
 #include "engine/errors.h"
+#include "jobs/statistics/unit_points.h"
 
 namespace jobs {
 namespace {
 
-/// Fitness of points without a value, and of points beyond bounds, is above this.
-constexpr double kMostFitness = 1e99;
+/// Fitness of points without a value is above this.
+constexpr double kMostFitness = 1e199;
+/// Other starts, where the start has no value.
+constexpr std::size_t kMostStarts = 32;
+constexpr int kMostEvaluations = 100'000;  // far more than the tolerances let a method ask for
 
 struct DestroyNlopt {
   void operator()(nlopt_opt optimiser) const { nlopt_destroy(optimiser); }
@@ -26,8 +33,8 @@ struct Path {
   const PointSearch::FindFitness& find_fitness;
   nlopt_opt optimiser;
   bool needs_values;  ///< not their order alone
-  double worst = 0.0;
-  std::size_t known = 0;
+  double worst;       ///< of the values so far, the start's among them
+  std::set<UnitPoint> known{};
   std::optional<UnitPoint> missing{};
   std::exception_ptr error{};
 
@@ -39,10 +46,10 @@ struct Path {
       nlopt_force_stop(optimiser);
       return worst;
     }
-    ++known;
     const double value = fitness->front();
+    known.insert(point);
     if (needs_values && !(value < kMostFitness)) return worst;  // a model needs values of a like size
-    worst = known == 1 ? value : std::max(worst, value);
+    worst = std::max(worst, value);
     return value;
   }
 };
@@ -66,22 +73,37 @@ std::vector<UnitPoint> LocalSearch::ask(const FindFitness& find_fitness) {
   const bool is_bobyqa = options_.method == LocalMethod::kBobyqa;
   engine::require(n > (is_bobyqa ? 1U : 0U), "start",
                   is_bobyqa ? "of two variables or more" : "of a variable");
+  std::vector<UnitPoint> starts{options_.start};
+  for (UnitPoint& point : sobol_points(kMostStarts, n, options_.seed)) starts.push_back(std::move(point));
+  const auto has_no_value = [&](const UnitPoint& point) {
+    const auto fitness = find_fitness(point);
+    return fitness && !(fitness->front() < kMostFitness);
+  };
+  const auto start = std::ranges::find_if_not(starts, has_no_value);
+  if (start == starts.end()) return {};
+  const auto start_fitness = find_fitness(*start);
+  if (!start_fitness) return {*start};
   const std::unique_ptr<nlopt_opt_s, DestroyNlopt> optimiser(
       nlopt_create(is_bobyqa ? NLOPT_LN_BOBYQA : NLOPT_LN_NELDERMEAD, n));
   if (!optimiser) throw std::bad_alloc();
-  Path path{.find_fitness = find_fitness, .optimiser = optimiser.get(), .needs_values = is_bobyqa};
+  Path path{.find_fitness = find_fitness,
+            .optimiser = optimiser.get(),
+            .needs_values = is_bobyqa,
+            .worst = start_fitness->front()};
   nlopt_set_min_objective(optimiser.get(), evaluate_on_path, &path);
   nlopt_set_lower_bounds1(optimiser.get(), 0.0);
   nlopt_set_upper_bounds1(optimiser.get(), 1.0);
   nlopt_set_initial_step1(optimiser.get(), options_.first_step);
   nlopt_set_xtol_abs1(optimiser.get(), options_.step_tolerance);
   nlopt_set_ftol_rel(optimiser.get(), options_.gain_tolerance);
-  UnitPoint x = options_.start;
+  nlopt_set_maxeval(optimiser.get(), kMostEvaluations);
+  UnitPoint x = *start;
   double least = 0.0;
   const nlopt_result result = nlopt_optimize(optimiser.get(), x.data(), &least);
   if (path.error) std::rethrow_exception(path.error);
   if (result == NLOPT_OUT_OF_MEMORY) throw std::bad_alloc();
-  known_ = path.known;
+  if (result == NLOPT_INVALID_ARGS) throw std::logic_error("NLopt takes no such search");
+  known_ = path.known.size();
   if (path.missing) return {*path.missing};
   return {};  // whatever has ended it: rounding errors that leave nothing to gain, too
 }

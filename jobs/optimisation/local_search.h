@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -10,13 +11,14 @@
 namespace jobs {
 
 /// Method of a local search. kNelderMead: simplices (J. A. Nelder and R. Mead, Comput. J. 7 (1965) 308), for
-/// which only the order of fitness counts. kBobyqa: quadratic models (M. J. D. Powell, DAMTP 2009/NA06), for
+/// which the order of fitness counts. kBobyqa: quadratic models (M. J. D. Powell, DAMTP 2009/NA06), for
 /// smooth fitness of two variables or more.
 enum class LocalMethod { kNelderMead, kBobyqa };
 
 struct LocalOptions {
   LocalMethod method = LocalMethod::kNelderMead;
-  UnitPoint start;
+  UnitPoint start;               ///< without a value: the first of Sobol's points that has one
+  std::uint64_t seed = 1;        ///< of those
   double first_step = 0.2;       ///< of the unit cube
   double step_tolerance = 1e-4;  ///< steps below which a search has converged
   double gain_tolerance = 1e-4;  ///< the same of the fitness, relative

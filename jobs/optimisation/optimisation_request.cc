@@ -111,7 +111,7 @@ class OptimisationParser : private RequestParser {
     if (request_.contains("population"))
       fault("/population", "belongs to cma_es and nsga2: the others try one candidate after the other");
     if (made_.local_method != LocalMethod::kBobyqa) return;
-    if (request_.contains("bounds"))
+    if (!made_.bounds.empty())
       fault("/method", "must be another one with bounds, across which the objective is not smooth");
     if (made_.variables.size() == 1)
       fault("/method", "must be another one with a single variable, \"nelder_mead\", say");

@@ -19,7 +19,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-// Only the order of fitness counts: what is not feasible is worse than all that is, what has no value worst.
+// Of what has a value the objective, in the order in which searches need it: what is not feasible is worse
+// than all that is, what has no value worst.
 constexpr double kInfeasibleFitness = 1e100;  ///< times the violation
 constexpr double kLostFitness = 1e200;
 constexpr double kLeastViolation = 1e-15;
@@ -78,8 +79,8 @@ std::vector<StartSearch> make_starts(const OptimisationRequest& request) {
   for (std::size_t k = 0; k < request.starts; ++k) {
     StartSearch& start = starts.emplace_back();
     if (request.local_method)
-      start.search =
-          std::make_unique<LocalSearch>(LocalOptions{.method = *request.local_method, .start = points[k]});
+      start.search = std::make_unique<LocalSearch>(
+          LocalOptions{.method = *request.local_method, .start = points[k], .seed = request.seed + k});
     else start.search = make_population_search(request, k);
   }
   return starts;

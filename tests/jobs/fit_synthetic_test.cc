@@ -138,6 +138,7 @@ std::size_t number_of_sets() {
 // Three sets of the twenty in a run of every day; RPSUP_TEST_FITS says how many.
 TEST(SyntheticFit, HeavyFindsTheTruth) {
   const std::size_t sets = number_of_sets();
+  ASSERT_GT(sets, 0U);
   std::size_t found = 0;
   for (std::size_t set = 1; set <= sets; ++set) {
     std::mt19937_64 random(set);

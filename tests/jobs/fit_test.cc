@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
@@ -142,6 +143,45 @@ json parameter_of(const json& fit, const std::string& path) {
   for (const json& one : fit.at("parameters"))
     if (one.at("path") == path) return one;
   throw std::runtime_error("the fit has no " + path);
+}
+
+// What is far below the stated noise, or has a small weight, is found all the same.
+TEST(Fit, FindsTheParametersWithCautiousNoiseAndAnyWeight) {
+  for (const json& channel : {json{{"noise", 0.1}}, json{{"weight", 1e-7}}, json{{"weight", 1e5}}}) {
+    const TemporaryStore store;
+    ClosedForm form;
+    jobs::Service service(options_of(store, form));
+    ordered_json request = fit_request(store_measurement(service, measured({4, 6})));
+    request["measurements"][0]["channels"] = {{kChannel, channel}};
+    const json ended = run_fit(service, request);
+    ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+    EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.005) << channel;
+    EXPECT_NEAR(parameter_of(ended, "restitution").at("value").get<double>(), 0.8, 0.005) << channel;
+    EXPECT_FALSE(parameter_of(ended, "clearance_mm").at("profile").is_null()) << channel;
+    EXPECT_TRUE(parameter_of(ended, "clearance_mm").at("range").is_null()) << channel;
+  }
+}
+
+// A signal that no parameters give: one of the two has another gain.
+TEST(Fit, GivesRangesWhereMoreThanNoiseIsLeft) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  jobs::Measurement rig = measured({4, 6});
+  for (double& y : rig.runs[1].columns[0]) y *= 1.3;
+  ordered_json request = fit_request(store_measurement(service, rig));
+  request["budget"] = 300;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_LE(ended.at("points").at("succeeded"), 300 + 20) << "a generation that has begun is finished";
+  for (const json& parameter : ended.at("parameters")) {
+    EXPECT_TRUE(parameter.at("profile").is_null());
+    EXPECT_LT(parameter.at("range").at("low"), parameter.at("value"));
+    EXPECT_GT(parameter.at("range").at("high"), parameter.at("value"));
+  }
+  EXPECT_LE(parameter_of(ended, "clearance_mm").at("range").at("low"), 0.31);
+  EXPECT_GE(parameter_of(ended, "clearance_mm").at("range").at("high"), 0.38);
+  EXPECT_THAT(ended.at("remarks").dump(), testing::HasSubstr("more than noise"));
 }
 
 TEST(Fit, FindsTheParametersOfTheMeasuredSignals) {

@@ -83,6 +83,18 @@ TEST(LocalSearch, GoesAroundWhatHasNoValue) {
   }
 }
 
+TEST(LocalSearch, BeginsElsewhereIfTheStartHasNoValue) {
+  const Function half = [](const UnitPoint& point) -> std::vector<double> {
+    if (point[0] > 0.6) return {1e200};
+    return {5.0 + std::pow(point[0] - 0.4, 2) + std::pow(point[1] - 0.3, 2)};
+  };
+  for (const LocalMethod method : {LocalMethod::kNelderMead, LocalMethod::kBobyqa}) {
+    const Solved solved = solve({.method = method, .start = {0.9, 0.8}}, half, 500);
+    EXPECT_NEAR(least_of(solved), 5.0, 5e-3);
+    EXPECT_TRUE(solved.converged);
+  }
+}
+
 TEST(LocalSearch, EndsWhereNothingHasAValue) {
   for (const LocalMethod method : {LocalMethod::kNelderMead, LocalMethod::kBobyqa}) {
     const Solved solved = solve(
