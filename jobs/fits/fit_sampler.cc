@@ -28,7 +28,7 @@ constexpr std::size_t kFewestDesignPoints = 20;
 constexpr std::size_t kDivergenceReplicates = 2;
 constexpr std::size_t kScatterReplicates = 8;
 /// Part of the budget that is spent before the profile likelihood.
-constexpr double kGlobalShare = 0.9;
+constexpr double kGlobalShare = 0.8;
 constexpr double kSearchShare = 0.12;  ///< of one population search
 /// Steps of the differences of features, which scatter.
 constexpr double kFeatureStep = 0.05;
@@ -420,7 +420,7 @@ void FitSampler::end_local(LeastSquaresResult result) {
         "The best jobs leave more than noise: the search may have missed better values, or the linkage is "
         "not that of the measurement. No interval can say how sure the values are; the ranges are those of "
         "points about as good as the best.");
-    if (is_point_wise()) summary_.ranges = find_ranges();
+    summary_.ranges = find_ranges();
   } else if (problem_.profiles && is_point_wise()) {
     summary_.stage = FitStage::kProfile;
   }
@@ -483,6 +483,7 @@ FitSampler::Points FitSampler::run_profile() {
         return {};
       }
       summary_.profiles = std::move(*answer.result);
+      extend_profiles();
       summary_.stage = FitStage::kPrediction;
       return {};
     }
@@ -490,8 +491,9 @@ FitSampler::Points FitSampler::run_profile() {
     if (missing.empty()) continue;
     if (summary_.points.size() < problem_.budget) return missing;
     summary_.remarks.emplace_back(
-        "The budget ended before the profile likelihood was there: intervals are those of the linearised "
-        "model.");
+        "The budget ended before the profile likelihood was there: the ranges are those of points that the "
+        "signals hardly tell from the best one.");
+    summary_.ranges = find_ranges();
     summary_.stage = FitStage::kPrediction;
     return {};
   }

@@ -97,7 +97,13 @@ class FitSampler final : public StudySampler {
   /// FitPointSummary::loss, a mean for features; empty as residuals_of() is.
   [[nodiscard]] std::optional<double> loss_of(const FitPoint& point);
   void choose_best(const Points& among);
+  /// Excess of a point's sum over that of the best one, in variances of the noise.
+  [[nodiscard]] double excess_of(const FitPointSummary& point) const;
+  [[nodiscard]] bool is_as_good(const FitPointSummary& point) const;
+  /// Of points about as good as the best one and of the linearised intervals.
   [[nodiscard]] std::vector<ValueRange> find_ranges() const;
+  /// A point below the threshold of a profile lies in its interval, wherever the refits went.
+  void extend_profiles();
   /// Tells the least squares points that are there. @returns those that are not
   Points tell_least_squares(const Points& points);
   [[nodiscard]] bool is_point_wise() const {

@@ -18,6 +18,8 @@ using nlohmann::ordered_json;
 
 /// Deviation of a signal over that with the best values, up to which a point counts as about as good.
 constexpr double kAsGood = 1.5;
+/// Excess of the sum, in variances of the noise, for each parameter: about the 95 % region of four together.
+constexpr double kJointExcess = 2.4;
 
 }  // namespace
 
@@ -192,26 +194,51 @@ void FitSampler::choose_best(const Points& among) {
   }
 }
 
-std::vector<ValueRange> FitSampler::find_ranges() const {
+double FitSampler::excess_of(const FitPointSummary& point) const {
+  const double deviation = summary_.intervals->residual_deviation;
+  return (point.sum.value() - local_->sum) / (deviation * deviation);
+}
+
+bool FitSampler::is_as_good(const FitPointSummary& point) const {
   const FitPointSummary& best = summary_.points[summary_.best.value()];
+  if (!point.sum || point.deviations.size() != best.deviations.size()) return false;
+  if (leaves_noise_) return excess_of(point) <= kJointExcess * static_cast<double>(best.point.size());
+  for (std::size_t k = 0; k < best.deviations.size(); ++k)
+    if (!(point.deviations[k] <= kAsGood * best.deviations[k])) return false;
+  return true;
+}
+
+std::vector<ValueRange> FitSampler::find_ranges() const {
   std::vector<ValueRange> ranges;
-  for (const double value : best.point) ranges.push_back({value, value});
+  for (const double value : best_) ranges.push_back({value, value});
   for (const FitPointSummary& point : summary_.points) {
-    bool is_as_good = point.deviations.size() == best.deviations.size();
-    for (std::size_t k = 0; is_as_good && k < best.deviations.size(); ++k)
-      is_as_good = point.deviations[k] <= kAsGood * best.deviations[k];
-    for (std::size_t i = 0; is_as_good && i < ranges.size(); ++i) {
+    if (!is_as_good(point)) continue;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
       ranges[i].low = std::min(ranges[i].low, point.point[i]);
       ranges[i].high = std::max(ranges[i].high, point.point[i]);
     }
   }
-  for (std::size_t i = 0; i < ranges.size() && summary_.intervals; ++i) {
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
     const Estimate& interval = summary_.intervals->parameters[i];
     const Span& span = problem_.parameters[i].span;
     ranges[i].low = std::clamp(interval.low, span.from, ranges[i].low);
     ranges[i].high = std::clamp(interval.high, ranges[i].high, span.to);
   }
   return ranges;
+}
+
+void FitSampler::extend_profiles() {
+  const FitIntervals& intervals = summary_.intervals.value();
+  for (const FitPointSummary& point : summary_.points) {
+    if (!point.sum || point.deviations.empty()) continue;
+    for (std::size_t i = 0; i < best_.size(); ++i) {
+      const double inflation = intervals.inflation[static_cast<Eigen::Index>(i)];
+      if (!(excess_of(point) < inflation * intervals.quantile * intervals.quantile)) continue;
+      ProfileInterval& interval = (*summary_.profiles)[i];
+      interval.low.value = std::min(interval.low.value, point.point[i]);
+      interval.high.value = std::max(interval.high.value, point.point[i]);
+    }
+  }
 }
 
 }  // namespace jobs

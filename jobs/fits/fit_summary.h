@@ -67,8 +67,7 @@ struct FitSummary {
   std::optional<std::string> local_end{};   ///< how the least squares ended, a sentence
   std::optional<FitIntervals> intervals{};  ///< at the best point
   std::optional<std::vector<ProfileInterval>> profiles{};
-  std::vector<ValueRange>
-      ranges{};  ///< of points about as good as the best, where that leaves more than noise
+  std::vector<ValueRange> ranges{};  ///< of points about as good as the best; empty where profiles are
   std::vector<std::string> remarks{};  ///< sentences: what is not identifiable, and what to mind
   std::vector<SignalSummary> signals{};
 };

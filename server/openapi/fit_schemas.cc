@@ -103,8 +103,8 @@ Json make_fitted_parameter() {
                                 "95 % interval by the derivatives at the best point; an end "
                                 "is null if there is none")},
        {"profile", described(make_interval(), "95 % interval by the profile likelihood")},
-       {"range", described(make_interval(),
-                           "of the points about as good as the best, where that leaves more than noise")},
+       {"range",
+        described(make_interval(), "of the points about as good as the best, where there is no profile")},
        {"identified", described(or_null({{"type", "boolean"}}), "whether the signals tell its value")},
        {"from", kNumber},
        {"to", kNumber}});
