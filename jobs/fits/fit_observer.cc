@@ -157,7 +157,8 @@ std::vector<double> FitObserver::calc_deviations(const std::vector<double>& resi
     const std::size_t count = signal.compared.t.size();
     const double rms = rms_of(std::span(residuals).subspan(first, count));
     const double noise = signal.noise / *signal.measured.sigma;
-    deviations.push_back(count == 0 ? 1.0 : std::max(std::hypot(rms, noise), signal.weight * kLeastDeviation));
+    deviations.push_back(count == 0 ? 1.0
+                                    : std::max(std::hypot(rms, noise), signal.weight * kLeastDeviation));
     first += count;
   }
   return deviations;
