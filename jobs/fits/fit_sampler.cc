@@ -47,8 +47,10 @@ constexpr std::size_t kMostSearches = 8;
 constexpr std::size_t kScanPoints = 160;
 constexpr std::size_t kMostScanValues = 32;
 constexpr std::size_t kFewestScanValues = 8;
-/// Gain of the loss after which least squares begin anew.
+/// Gain of the loss after which least squares begin anew, and searches around what leaves noise.
 constexpr double kLeastGain = 0.01;
+constexpr double kLeastPolishGain = 1e-4;
+constexpr double kPolishShare = 0.5;  ///< of the budget, up to which these searches may begin
 /// Least size of the box of a search, as part of a span.
 constexpr double kLeastBox = 1e-3;
 
@@ -222,6 +224,7 @@ void FitSampler::begin_global() {
     return static_cast<std::size_t>(part * static_cast<double>(problem_.budget));
   };
   global_limit_ = part_of_budget(kGlobalShare);
+  polish_limit_ = part_of_budget(kPolishShare);
   search_limit_ = std::min(global_limit_, summary_.points.size() + part_of_budget(kSearchShare));
   box_centre_ = best_;
   population_.emplace(PopulationOptions{.dimensions = best_.size(),
@@ -382,9 +385,21 @@ void FitSampler::end_pass(const LeastSquaresResult& result) {
         observer_->scale_signals({column.begin(), column.end()}, inverse_factors);
     column = Eigen::Map<const Eigen::VectorXd>(unscaled.data(), column.size());
   }
-  if (leaves_noise_) end_search();
+  if (leaves_noise_) end_polish();
   else if (gains_since(pass_start_)) begin_local(best_, 0);
   else begin_scan();
+}
+
+/// Noise may be left in a dip beside the true values. Searches go on around it until one finds nothing
+/// better.
+void FitSampler::end_polish() {
+  const double loss = loss_of(best_).value();
+  const bool gains = !noise_loss_ || *noise_loss_ - loss > kLeastPolishGain;
+  noise_loss_ = loss;
+  const bool is_within = search_ + 1 < kMostSearches && summary_.points.size() < polish_limit_;
+  if (!gains || !is_within) return end_search();
+  ++search_;
+  begin_global();
 }
 
 void FitSampler::end_local(LeastSquaresResult result) {

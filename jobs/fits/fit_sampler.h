@@ -73,6 +73,7 @@ class FitSampler final : public StudySampler {
   /// Sums of all points by features and their scale.
   void sum_features();
   void end_pass(const LeastSquaresResult& result);
+  void end_polish();
   void judge_residuals(const std::vector<double>& residuals);
   [[nodiscard]] double find_last_step(const std::vector<double>& residuals) const;
   void end_local(LeastSquaresResult result);
@@ -127,15 +128,17 @@ class FitSampler final : public StudySampler {
   std::optional<PopulationSearch> population_;
   std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
   FitPoint box_centre_;
-  Eigen::MatrixXd jacobian_;  ///< of the least squares that ended last, of residuals without factors
-  std::size_t search_ = 0;    ///< number of the population search
-  bool leaves_noise_ = true;  ///< whether the residuals of the least squares are noise
-  bool ends_ = false;         ///< whether the last least squares have begun
+  Eigen::MatrixXd jacobian_;          ///< of the least squares that ended last, of residuals without factors
+  std::size_t search_ = 0;            ///< number of the population search
+  bool leaves_noise_ = true;          ///< whether the residuals of the least squares are noise
+  std::optional<double> noise_loss_;  ///< of the best point when it left noise last
+  bool ends_ = false;                 ///< whether the last least squares have begun
   Points scan_;
   std::vector<double> factors_;  ///< of each signal's residuals in least squares
   std::size_t step_ = 0;         ///< of the differences of least squares, in kDifferenceSteps
-  std::size_t global_limit_ = 0, search_limit_ = 0, local_limit_ = 0;  ///< numbers of points
-  Evaluations evaluations_;                                            ///< of the least squares
+  std::size_t global_limit_ = 0, polish_limit_ = 0, search_limit_ = 0,
+              local_limit_ = 0;  ///< numbers of points
+  Evaluations evaluations_;      ///< of the least squares
   FitPoint local_start_;
   FitPoint pass_start_;     ///< start of the least squares with the longest step
   double last_step_ = 0.0;  ///< of the differences for the intervals
