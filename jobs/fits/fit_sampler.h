@@ -101,7 +101,7 @@ class FitSampler final : public StudySampler {
   /// Excess of a point's sum over that of the best one, in variances of the noise.
   [[nodiscard]] double excess_of(const FitPointSummary& point) const;
   [[nodiscard]] bool is_as_good(const FitPointSummary& point) const;
-  /// Of points about as good as the best one and of the linearised intervals.
+  /// Ranges of the points about as good as the best one, and of the linearised intervals.
   [[nodiscard]] std::vector<ValueRange> find_ranges() const;
   /// A point below the threshold of a profile lies in its interval, wherever the refits went.
   void extend_profiles();

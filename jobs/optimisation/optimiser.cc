@@ -19,8 +19,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-// Of what has a value the objective, in the order in which searches need it: what is not feasible is worse
-// than all that is, what has no value worst.
+// Candidates that are not feasible have a worse fitness than all that are, those without a value the worst.
 constexpr double kInfeasibleFitness = 1e100;  ///< times the violation
 constexpr double kLostFitness = 1e200;
 constexpr double kLeastViolation = 1e-15;

@@ -110,7 +110,7 @@ bool is_inside(const json& parameter, double value) {
   return is_kept("low", 1.0) && is_kept("high", -1.0);
 }
 
-/// What a fit of one set reached: whether its values are right, and all true ones within their intervals.
+/// Verdicts on the fit of one set: whether its values are right, and all true ones within their intervals.
 struct Reached {
   bool clearance, restitution, intervals, peak;
   [[nodiscard]] bool values() const { return clearance && restitution && peak; }

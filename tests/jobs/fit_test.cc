@@ -145,7 +145,7 @@ json parameter_of(const json& fit, const std::string& path) {
   throw std::runtime_error("the fit has no " + path);
 }
 
-// What is far below the stated noise, or has a small weight, is found all the same.
+// Parameters are found by signals with far less noise than stated, and by signals of any weight.
 TEST(Fit, FindsTheParametersWithCautiousNoiseAndAnyWeight) {
   for (const json& channel : {json{{"noise", 0.1}}, json{{"weight", 1e-7}}, json{{"weight", 1e5}}}) {
     const TemporaryStore store;

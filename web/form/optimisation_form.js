@@ -57,7 +57,8 @@ export class OptimisationForm extends StudyForm {
           quantile(item)]) }),
     list, h("h2", {}, "Method and budget"),
     ...itemRow(this, "method", [choice("Method", methods, this.state.method,
-      (method) => { this.state.method = method; this.update(); })]), ...numbers.map((key) => this.number(key)),
+      (method) => { this.state.method = method; this.update(); })]),
+    ...numbers.map((key) => this.number(key)),
     h("h2", {}, "Linkage and axes"),
     h("p", { class: "quiet small" }, "A candidate has a job for each combination of the parameters that "
       + "have a list or "

@@ -9,7 +9,7 @@ import { titleOfVariable } from "/study/variables.js";
 
 const textOf = (value) => (value === undefined ? "" : String(value));
 
-/// What stands in the form for the variables of a request.
+/// Contents of the form for the variables of a request.
 /** @param {Record<string, Api.Schemas["Variable"]>} over  @returns {VariableEntry[]} */
 export const readVariables = (over = {}) => Object.entries(over).map(([path, { from, to, start, scale }]) =>
   ({ path, from: textOf(from), to: textOf(to), start: textOf(start), scale: scale ?? "linear" }));

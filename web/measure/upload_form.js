@@ -103,7 +103,7 @@ class UploadForm {
       (run) => { this.shownRun = Number(run); this.drawPreview(); }) : "");
   }
 
-  /// What is known of each run, as JSON.
+  /// Known parameters of each run, as JSON.
   runFields() {
     const runs = this.draft?.runs ?? [];
     this.runFaults = runs.map(() => h("p", { class: "trouble small", hidden: true }));

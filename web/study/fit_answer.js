@@ -46,8 +46,8 @@ function overlaysOf({ signals, request }) {
 /// What came of a fit in sentences, what the signals do not tell, and the jobs of the best point.
 /** @param {Api.Fit} fit */
 export function answerOf(fit) {
-  const { state, parameters, signals, measurement_ids: measurements, basis, divergence, local_end: end, remarks,
-    best, thinning } = fit;
+  const { state, parameters, signals, measurement_ids: measurements, basis, divergence, local_end: end,
+    remarks, best, thinning } = fit;
   if (!best) return [h("p", { class: "quiet" }, state === "running" ? "No point has been computed yet."
     : "No point has a value.")];
   const sentence = `${state === "running" ? "So far: " : ""}${shortAnswerOf(fit)}.`;

@@ -14,8 +14,8 @@ export function intervalText(interval, digits = 4) {
   return `${number(interval.low, digits)} to ${number(interval.high, digits)}`;
 }
 
-/// The broad bar is the interval by the profile, or the range, the thin one the linearised interval, the tick the
-/// value.
+/// The broad bar is the interval by the profile, or the range; the thin one the linearised interval; the tick
+/// the value.
 /**
  * @param {Api.Schemas["FittedParameter"]} parameter
  * @param {boolean} isLog
