@@ -12,5 +12,5 @@ while IFS='|' read -r _ row _ names _; do
     grep -qxE "$pattern" <<<"$tests" || { echo "$row names a test that is not there: $name"; bad=1; }
   done
 done < <(grep -E '^\| ([PRS][0-9]+|`[^|]*|every document) \|' "$1/tests/README.md")
-[ "$rows" -eq 50 ] || { echo "the tables have $rows rows instead of 50"; bad=1; }
+[ "$rows" -ge 50 ] || { echo "the tables have $rows rows instead of 50 or more"; bad=1; }
 exit "$bad"
