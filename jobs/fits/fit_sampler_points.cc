@@ -18,8 +18,6 @@ using nlohmann::ordered_json;
 
 /// Deviation of a signal over that with the best values, up to which a point counts as about as good.
 constexpr double kAsGood = 1.5;
-/// Excess of the sum, in variances of the noise, for each parameter: about the 95 % region of four together.
-constexpr double kJointExcess = 2.4;
 
 }  // namespace
 
@@ -202,7 +200,7 @@ double FitSampler::excess_of(const FitPointSummary& point) const {
 bool FitSampler::is_as_good(const FitPointSummary& point) const {
   const FitPointSummary& best = summary_.points[summary_.best.value()];
   if (!point.sum || point.deviations.size() != best.deviations.size()) return false;
-  if (leaves_noise_) return excess_of(point) <= kJointExcess * static_cast<double>(best.point.size());
+  if (leaves_noise_) return excess_of(point) <= summary_.intervals->quantile * summary_.intervals->quantile;
   for (std::size_t k = 0; k < best.deviations.size(); ++k)
     if (!(point.deviations[k] <= kAsGood * best.deviations[k])) return false;
   return true;

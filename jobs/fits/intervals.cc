@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include <Eigen/SVD>
-#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 
 #include "engine/errors.h"
 #include "jobs/fits/autoregression.h"
@@ -163,7 +163,9 @@ FitIntervals calc_intervals(const Eigen::MatrixXd& jacobian, const Eigen::Vector
     noise = calc_series_noise(jacobian, residuals, options.blocks);
   intervals.effective_samples = noise.effective_samples;
   const double degrees = std::max(noise.effective_samples - static_cast<double>(n), 1.0);
-  intervals.quantile = boost::math::quantile(boost::math::students_t(degrees), 0.975);
+  const auto parameters = static_cast<double>(n);
+  intervals.quantile =
+      std::sqrt(parameters * boost::math::quantile(boost::math::fisher_f(parameters, degrees), 0.95));
   const double added = options.misfit / (intervals.quantile * intervals.quantile);
   noise.middle += added * jacobian.transpose() * jacobian;
   DirectionCovariance along = calc_direction_covariance(intervals, noise.middle);

@@ -23,7 +23,8 @@ struct IntervalOptions {
   double least_ratio = 1e-5;  ///< of singular values: below, the errors of the differences decide
 };
 
-/// Linearised statistics of a fit, in the parts of the spans. A direction is unidentifiable if its 95 %
+/// Linearised statistics of a fit, in the parts of the spans. Intervals are simultaneous (Scheffé's): with 95 %
+/// probability they hold the true values of all parameters. A direction is unidentifiable if its 95 %
 /// interval is longer than the range, or if its singular value is below least_ratio times the largest one;
 /// the covariance leaves such directions out, and the parameters that take part in them have infinite
 /// intervals.
@@ -38,17 +39,17 @@ struct FitIntervals {
   std::vector<std::size_t> unidentifiable;  ///< columns of directions
   double residual_deviation = 0.0;          ///< s, with the divisor m - n
   double effective_samples = 0.0;           ///< m over the autocorrelation time, series by series
-  double quantile = 0.0;                    ///< Student's, two-sided at 95 %
+  double quantile = 0.0;                    ///< reach of an interval in standard deviations: sqrt(n F(0.95; n, degrees))
 };
 
 /// White residuals: covariance s^2 (J^T J)^-1 by the singular values of J. Autocorrelated residuals: (J^T
 /// J)^-1 J^T V J (J^T J)^-1, where V is the covariance of an autoregressive model of each series of
-/// residuals. Student's degrees of freedom are the effective samples less the parameters. Source: Seber &
-/// Wild (2003), Nonlinear Regression, ch. 5 (intervals) and 6 (autocorrelated errors).
+/// residuals. The degrees of freedom are the effective samples less the parameters. Source: Seber & Wild
+/// (2003), Nonlinear Regression, ch. 5 (intervals) and 6 (autocorrelated errors).
 ///
 /// A misfit, as impacts leave that come a little too early or too late, tells nothing of how far the best
 /// point is from the true one. So parameters may lie wherever the linearised model changes the sum by as
-/// much: the covariance has misfit / t^2 (J^T J)^-1, t: Student's quantile, added.
+/// much: the covariance has misfit / quantile^2 (J^T J)^-1 added.
 /// @param jacobian  by the parts of the spans, as LeastSquaresResult has it; more rows than columns
 /// @param x         the best point
 [[nodiscard]] FitIntervals calc_intervals(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,

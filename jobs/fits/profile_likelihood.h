@@ -31,7 +31,7 @@ struct ProfileEnd {
   std::string message;  ///< empty if found
 };
 
-/// 95 % interval of one parameter. `better` is a point with a smaller sum than the best one had, if one was
+/// Interval of one parameter. `better` is a point with a smaller sum than the best one had, if one was
 /// met.
 struct ProfileInterval {
   ProfileEnd low, high;
@@ -46,9 +46,9 @@ struct ProfileAnswer {
 
 /// Ends of the intervals within which the least sum over the other parameters stays below
 ///
-///     S(x_i) = S_best + s^2 c_i t^2,   t: Student's quantile, c_i: inflation by autocorrelation.
+///     S(x_i) = S_best + s^2 c_i q^2,   q: FitIntervals::quantile, c_i: inflation by autocorrelation.
 ///
-/// For white residuals s^2 t^2 is the threshold of the F test of one parameter. Secants run on the root of S
+/// For white residuals s^2 q^2 is the threshold of the F test of all n parameters together. Secants run on the root of S
 /// - S_best, which is linear in x_i for a linear model. Source: Bates & Watts (1988), Nonlinear Regression
 /// Analysis and Its Applications, section 6.1 (profile t).
 [[nodiscard]] ProfileAnswer profile_likelihood(const ProfileProblem& problem, const Evaluations& evaluations);
