@@ -272,10 +272,6 @@ json Service::list_executors() const {
   return {{"items", std::move(items)}};
 }
 
-bool Service::copy_store_to(const std::filesystem::path& file) const {
-  return copy_store(options_.store, file, [this] { return changes_.is_closed(); });
-}
-
 std::optional<json> Service::cancel_sweep(const std::string& id) {
   const bool found = finish_cancelling(store_->queue.cancel_sweep(id), "the sweep has ended");
   return found ? find_sweep(id) : std::nullopt;

@@ -43,6 +43,7 @@ class Store;
 class StudyRunner;
 struct Cancellation;
 struct Measurement;
+struct TrajectoryExport;
 
 /// When a service begins to compute.
 enum class Start { kAtOnce, kWhenTold };
@@ -201,6 +202,10 @@ class Service {
   /// Writes a consistent copy of the store to a file that does not exist, while everything goes on.
   /// @returns false if the service was stopped before it was done; then there is no file
   bool copy_store_to(const std::filesystem::path& file) const;
+  /// Writes the trajectories of a sweep into one file, see jobs::write_trajectories().
+  /// @returns false if there is no such sweep  @throws Stopped if the service was stopped before it was done
+  bool write_trajectories(const std::string& sweep_id, const TrajectoryExport& wanted,
+                          const std::filesystem::path& file) const;
   [[nodiscard]] const std::filesystem::path& store_file() const { return options_.store; }
 
   /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once

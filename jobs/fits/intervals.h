@@ -23,8 +23,8 @@ struct IntervalOptions {
   double least_ratio = 1e-5;  ///< of singular values: below, the errors of the differences decide
 };
 
-/// Linearised statistics of a fit, in the parts of the spans. Intervals are simultaneous (Scheffé's): with 95 %
-/// probability they hold the true values of all parameters. A direction is unidentifiable if its 95 %
+/// Linearised statistics of a fit, in the parts of the spans. Intervals are simultaneous (Scheffé's): with 95
+/// % probability they hold the true values of all parameters. A direction is unidentifiable if its 95 %
 /// interval is longer than the range, or if its singular value is below least_ratio times the largest one;
 /// the covariance leaves such directions out, and the parameters that take part in them have infinite
 /// intervals.
@@ -39,7 +39,7 @@ struct FitIntervals {
   std::vector<std::size_t> unidentifiable;  ///< columns of directions
   double residual_deviation = 0.0;          ///< s, with the divisor m - n
   double effective_samples = 0.0;           ///< m over the autocorrelation time, series by series
-  double quantile = 0.0;                    ///< reach of an interval in standard deviations: sqrt(n F(0.95; n, degrees))
+  double quantile = 0.0;  ///< reach of an interval in standard deviations: sqrt(n F(0.95; n, degrees))
 };
 
 /// White residuals: covariance s^2 (J^T J)^-1 by the singular values of J. Autocorrelated residuals: (J^T

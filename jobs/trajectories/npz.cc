@@ -28,19 +28,6 @@ void append_u32(std::string& bytes, std::uint32_t value) {
   append_u16(bytes, value >> 16U);
 }
 
-/// The head of a .npy file of version 1.0: its size, with the 10 bytes before it, is a multiple of 64.
-std::string npy_head(std::size_t values) {
-  std::string dictionary =
-      "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(values) + ",), }";
-  while ((10 + dictionary.size() + 1) % 64 != 0) dictionary += ' ';
-  dictionary += '\n';
-  std::string head = "\x93NUMPY";
-  head += '\x01';
-  head += '\0';
-  append_u16(head, static_cast<std::uint32_t>(dictionary.size()));
-  return head + dictionary;
-}
-
 /// One entry of the archive.
 struct ArchivedFile {
   std::string name;
@@ -170,7 +157,7 @@ class NpzText final : public TrajectoryText {
   }
 
   void begin_column(std::string& to) {
-    const std::string head = npy_head(view_.samples());
+    const std::string head = npy_head("<f8", view_.samples());
     uLong crc = add_to_crc(0, head);
     const auto column = view_.read_column(channel_);
     for (bool more = true; more;) {
@@ -192,6 +179,18 @@ class NpzText final : public TrajectoryText {
 
 }  // namespace
 
+std::string npy_head(std::string_view type, std::size_t values) {
+  std::string dictionary = "{'descr': '" + std::string(type) + "', 'fortran_order': False, 'shape': (" +
+                           std::to_string(values) + ",), }";
+  while ((10 + dictionary.size() + 1) % 64 != 0) dictionary += ' ';
+  dictionary += '\n';
+  std::string head = "\x93NUMPY";
+  head += '\x01';
+  head += '\0';
+  append_u16(head, static_cast<std::uint32_t>(dictionary.size()));
+  return head + dictionary;
+}
+
 std::string to_npz(const engine::Trajectory& trajectory) {
   std::size_t values = 0;
   for (const auto& column : trajectory.columns) values += column.size();
@@ -200,7 +199,7 @@ std::string to_npz(const engine::Trajectory& trajectory) {
   NpzArchive archive;
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
     const std::string_view data = bytes_of_doubles(trajectory.columns[c]);
-    const std::string head = npy_head(trajectory.columns[c].size());
+    const std::string head = npy_head("<f8", trajectory.columns[c].size());
     archive.append_entry(bytes, bytes.size(), trajectory.channels[c].key, head, data.size(),
                          add_to_crc(add_to_crc(0, head), data));
     bytes += data;

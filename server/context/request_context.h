@@ -22,6 +22,7 @@ struct RequestContext {
   LongPollLimit& long_poll_limit;
   StoreCopyLimit& store_copy_limit;
   WorkLimit& stream_limit;  ///< of long trajectories that are being sent
+  WorkLimit& export_limit;  ///< of files with the trajectories of a sweep, until they have been sent
 };
 
 }  // namespace server

@@ -32,6 +32,7 @@ struct Route {
   int success = 200;
   std::vector<AnswerForm> answers = {};        ///< forms of the answer to success; empty: without a body
   std::vector<int> bodiless = {};  ///< statuses of other answers without a body that are no problems
+  bool partial = false;  ///< whether 206 answers a Range, with the same forms
   std::vector<int> problems = {};              ///< statuses beside those of any request
 };
 

@@ -168,7 +168,7 @@ class HttpServer::Impl {
           copy_to(response, make_error_answer(error, request_ids_.next()));
         });
     guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      tidy_headers(response);
+      tidy_headers(request, response);
       if (!response.has_header("X-Request-Id")) response.set_header("X-Request-Id", request_ids_.next());
       add_cors_headers(request, response);
     });
@@ -193,8 +193,9 @@ class HttpServer::Impl {
       copy_to(response, make_problem(response.status, "the request cannot be understood"));
   }
 
-  static void tidy_headers(httplib::Response& response) {
-    response.headers.erase("Accept-Ranges");
+  /// The library says of every answer to HEAD that it has ranges.
+  static void tidy_headers(const httplib::Request& request, httplib::Response& response) {
+    if (request.method == "HEAD") response.headers.erase("Accept-Ranges");
     if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
   }
 
@@ -206,7 +207,7 @@ class HttpServer::Impl {
     if (!origin_check_.is_allowed(origin)) return;
     response.set_header("Access-Control-Allow-Origin", origin);
     response.set_header("Access-Control-Expose-Headers",
-                        "Content-Disposition, ETag, Location, Preference-Applied, Retry-After, X-Request-Id");
+                        "Accept-Ranges, Content-Disposition, Content-Range, ETag, Location, Preference-Applied, Retry-After, X-Request-Id");
   }
 
   /// What a browser asks on behalf of such a page before it sends the request itself.
@@ -219,7 +220,7 @@ class HttpServer::Impl {
     response.status = 204;
     response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
     response.set_header("Access-Control-Allow-Headers",
-                        "Authorization, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID, Prefer");
+                        "Authorization, Content-Type, Idempotency-Key, If-None-Match, If-Range, Last-Event-ID, Prefer, Range");
     response.set_header("Access-Control-Max-Age", "600");
     // Chrome asks this where a page from elsewhere speaks to this machine.
     if (request.has_header("Access-Control-Request-Private-Network"))
@@ -309,6 +310,8 @@ class HttpServer::Impl {
     request.if_none_match = from.get_header_value("If-None-Match");
     request.prefer = from.get_header_value("Prefer");
     request.last_event_id = from.get_header_value("Last-Event-ID");
+    request.range = from.get_header_value(kRange);
+    request.if_range = from.get_header_value("If-Range");
     if (from.has_header("Idempotency-Key"))
       request.idempotency_key = from.get_header_value("Idempotency-Key");
     request.body = std::move(body);

@@ -38,11 +38,13 @@ void set_reuse_address(socket_t socket) {
   ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
 }
 
-/// Copies the head that the client has sent to the library's request, without Range: the library would answer
-/// any number of ranges, and refuse those that it does not understand; a server without ranges ignores the
-/// header.
+/// Copies the head that the client has sent to the library's request, with Range under another name: the
+/// library would answer any number of ranges, of every body.
 void fill(httplib::Request& request, RequestHead head) {
-  head.headers.erase("range");
+  if (auto range = head.headers.extract("range")) {
+    range.key() = kRange;
+    head.headers.insert(std::move(range));
+  }
   if (auto encoding = head.headers.extract("accept-encoding")) {
     encoding.key() = kAcceptEncoding;
     head.headers.insert(std::move(encoding));

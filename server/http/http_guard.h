@@ -19,6 +19,7 @@ namespace server {
 /// name the header would make the library compress, with brotli at its slowest setting. No client can send a
 /// name with blanks.
 inline constexpr const char* kAcceptEncoding = "Accept-Encoding of the client";
+inline constexpr const char* kRange = "Range of the client";
 
 /// cpp-httplib's server with limits. The library by itself reads heads of any length, waits without end,
 /// serves any number of Range headers, keeps its few threads for clients that do nothing, and ends when it

@@ -27,6 +27,7 @@ struct Request {
   /// Path under which clients reach the service through a proxy, as "/rpsup"; empty: at the root of its host
   std::string base_path{};
   std::string content_type{};                               ///< of the body; empty if the header is missing
+  std::string range{}, if_range{};                          ///< of these headers; empty if they are missing
 };
 
 /// A file that is sent as a body and is gone when it has been.
@@ -34,19 +35,22 @@ class FileBody {
  public:
   /// @param descriptor  of a file that has no name any more; becomes this object's
   /// @param permit      let go once the file is gone
-  explicit FileBody(int descriptor, std::shared_ptr<const void> permit)
-      : permit_(std::move(permit)), descriptor_(descriptor) {}
+  explicit FileBody(int descriptor, std::shared_ptr<const void> permit);
   ~FileBody();
   FileBody(const FileBody&) = delete;
   FileBody& operator=(const FileBody&) = delete;
 
-  [[nodiscard]] std::size_t size() const;
-  /// Reads from a place in the file. @returns how many bytes there were; 0 if the file cannot be read
+  /// Makes the body a part of the file, from one byte to before another.
+  void cut(std::size_t begin, std::size_t end);
+
+  [[nodiscard]] std::size_t size() const { return end_ - begin_; }
+  /// Reads from a place in the body. @returns how many bytes there were; 0 if the file cannot be read
   [[nodiscard]] std::size_t read(std::size_t offset, char* to, std::size_t size) const;
 
  private:
   std::shared_ptr<const void> permit_;
   int descriptor_;
+  std::size_t begin_ = 0, end_ = 0;  ///< of the body in the file
 };
 
 /// Events that follow one another on a connection that stays open.

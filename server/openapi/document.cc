@@ -50,6 +50,10 @@ Json make_headers() {
         {"schema", {{"type", "string"}, {"pattern", "^wait=[0-9]+$"}}}}},
       {"Content-Disposition",
        {{"description", "A name for the file, in forms that are saved rather than read"}, {"schema", text}}},
+      {"Accept-Ranges",
+       {{"description", "bytes: a request with Range gets a part"},
+        {"schema", {{"type", "string"}, {"const", "bytes"}}}}},
+      {"Content-Range", {{"description", "First and last byte of the part, and the size"}, {"schema", text}}},
       {"Retry-After",
        {{"description", "Seconds after which to try again"}, {"schema", {{"type", "integer"}}}}},
       {"X-Request-Id", {{"description", "What the log calls the request"}, {"schema", text}}}};
@@ -69,8 +73,8 @@ Json make_problem_answer(int status) {
 
 /// Whether browsers save an answer of this form instead of showing it.
 bool is_saved(const AnswerForm& form) {
-  constexpr std::array<std::string_view, 3> kSaved{"text/csv", "application/x-npz",
-                                                   "application/vnd.sqlite3"};
+  constexpr std::array<std::string_view, 5> kSaved{"text/csv", "application/x-npz", "application/x-hdf5",
+                                                   "application/x-matlab-data", "application/vnd.sqlite3"};
   return std::ranges::find(kSaved, form.media_type) != kSaved.end();
 }
 
@@ -86,8 +90,10 @@ Json make_answer(const Route& route, int status) {
   return answer;
 }
 
-Json make_success(const Route& route) {
-  Json answer = make_answer(route, route.success);
+Json make_success(const Route& route, int status) {
+  Json answer = make_answer(route, status);
+  if (route.partial) add_header_to(answer, "Accept-Ranges");
+  if (status == 206) add_header_to(answer, "Content-Range");
   for (const AnswerForm& form : route.answers)
     answer["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);  // not std::ref
   return answer;
@@ -107,7 +113,8 @@ Json make_operation(const Route& route) {
     for (const AnswerForm& form : route.other_bodies)
       operation["requestBody"]["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);
   }
-  operation["responses"][std::to_string(route.success)] = make_success(route);
+  operation["responses"][std::to_string(route.success)] = make_success(route, route.success);
+  if (route.partial) operation["responses"]["206"] = make_success(route, 206);
   for (const int status : route.bodiless)
     operation["responses"][std::to_string(status)] = make_answer(route, status);
   for (const int status : problems_of(route)) {

@@ -60,6 +60,7 @@ std::vector<RequestParameter> make_query_parameters() {
        {{"type", "object"}, {"additionalProperties", kText}}},
       {"row_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "ndjson"})},
       {"column_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "npz"})},
+      {"export_format", "query", "format", "Instead of the Accept header", words({"h5", "mat", "npz"})},
       {"metric", "query", "metric",
        "The metric; if left out the peak of the slider's acceleration, or the first one of a described "
        "linkage",
@@ -134,6 +135,8 @@ std::vector<RequestParameter> make_header_parameters() {
        "The same key with the same request is answered as before; nothing is made twice",
        {{"type", "string"}, {"minLength", 1}, {"maxLength", 255}, {"pattern", "^[!-~]+$"}}},
       {"if_none_match", "header", "If-None-Match", "An ETag: 304 if nothing has changed", kText},
+      {"range", "header", "Range", "bytes=N-: the rest of the file, to go on with a download; several ranges get all of it", kText},
+      {"if_range", "header", "If-Range", "The ETag of the part that has come: all of the file if its bytes have changed", kText},
       {"last_event_id", "header", "Last-Event-ID", "The id of the last event that was received", kText},
       {"prefer", "header", "Prefer",
        "wait=N: the answer waits for the end of the job, sweep or study, N s at most", kText},

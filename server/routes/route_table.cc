@@ -18,6 +18,8 @@ constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kNdjson = "application/x-ndjson";
 constexpr std::string_view kNpz = "application/x-npz";
+constexpr std::string_view kHdf5 = "application/x-hdf5";
+constexpr std::string_view kMat = "application/x-matlab-data";
 constexpr std::string_view kHtml = "text/html";
 
 std::vector<Route> make_sweep_routes() {
@@ -44,6 +46,12 @@ std::vector<Route> make_sweep_routes() {
        .headers = {"if_none_match"}, .answers = {{kJson, "ResultRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
        .bodiless = {304},
        .problems = {404, 422}},
+      {.method = "GET", .pattern = "/v1/sweeps/{id}/trajectories", .handler = get_trajectories,
+       .operation_id = "getTrajectories", .tag = "sweeps",
+       .summary = "File of the results and of all trajectories of a sweep: HDF5, MAT or NPZ",
+       .query = {"channels", "from", "to", "export_format"}, .headers = {"if_none_match", "range", "if_range"},
+       .answers = {{kHdf5, "Binary"}, {kMat, "Binary"}, {kNpz, "Binary"}}, .bodiless = {304},
+       .partial = true, .problems = {404, 409, 416, 422, 507}},
       {.method = "GET", .pattern = "/v1/sweeps/{id}/events", .handler = get_events,
        .operation_id = "followSweep", .tag = "sweeps",
        .summary = "Server-sent events: job, progress and, at the end, done. 204: all events have been sent, "

@@ -102,7 +102,7 @@ Response answer_unknown_path(const Request& request, const std::string& method) 
 
 Routes::Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics)
     : service_(service), metrics_(std::move(metrics)) {
-  remove_left_over_copy(service.store_file());
+  remove_left_over_files(service.store_file());
 }
 
 void Routes::give_memory_back() {
@@ -142,7 +142,7 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
       const auto permit = is_heavy(route, request) ? heavy_limit_.acquire() : idle_permit();
       if (!permit) return make_retry_later(503, "as many large requests wait as may; try again");
       return route.handler({service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_,
-                            store_copy_limit_, stream_limit_});
+                            store_copy_limit_, stream_limit_, export_limit_});
     }
     allowed +=
         (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);

@@ -42,6 +42,7 @@ class Routes {
   // Each of these may take some 40 MB.
   mutable WorkLimit heavy_limit_{2, 22, give_memory_back};
   mutable WorkLimit stream_limit_{4, 0, give_memory_back};
+  mutable WorkLimit export_limit_{2, 4, give_memory_back};
 };
 
 }  // namespace server

@@ -8,10 +8,13 @@
 
 namespace server {
 
-/// Removes the copy that a process left when it died; its name is this service's own. Nobody may be copying.
-void remove_left_over_copy(const std::filesystem::path& store);
+/// Removes the files that a process left when it died; their names are this service's own. Nobody may be
+/// making any.
+void remove_left_over_files(const std::filesystem::path& store);
 
-Response get_store(
-    const RequestContext& context);  ///< a consistent copy of the whole store, as an SQLite file
+/// Consistent copy of the whole store, as an SQLite file.
+Response get_store(const RequestContext& context);
+/// Results and trajectories of a sweep, as one file.
+Response get_trajectories(const RequestContext& context);
 
 }  // namespace server

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <matio.h>
+
+#include "jobs/exports/trajectory_file.h"
+#include "jobs/measurements/channel_unit.h"
+
+namespace jobs {
+namespace {
+
+struct FreeVariable {
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using MatVariable = std::unique_ptr<matvar_t, FreeVariable>;
+
+MatVariable checked(matvar_t* variable) {
+  if (variable == nullptr) throw std::bad_alloc();
+  return MatVariable(variable);
+}
+
+/// Name of a variable or a field: letters, digits and '_' after a letter, 63 at most.
+std::string matlab_name(const std::string& name) {
+  constexpr std::size_t kLongest = 63;
+  std::string taken = name.substr(0, kLongest);
+  for (char& c : taken)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  if (taken.empty() || std::isalpha(static_cast<unsigned char>(taken[0])) == 0) taken = "x" + taken;
+  return taken.substr(0, kLongest);
+}
+
+/// In UTF-16, as MATLAB keeps texts: the library miscounts the bytes of UTF-8.
+MatVariable make_text(const std::string& text) {
+  std::vector<std::uint16_t> units;
+  for (const char32_t point : code_points_of(text)) {
+    if (point < 0x10000) {
+      units.push_back(static_cast<std::uint16_t>(point));
+    } else {
+      units.push_back(static_cast<std::uint16_t>(0xd800U + ((point - 0x10000U) >> 10U)));
+      units.push_back(static_cast<std::uint16_t>(0xdc00U + ((point - 0x10000U) & 0x3ffU)));
+    }
+  }
+  std::array<std::size_t, 2> dimensions{units.empty() ? 0U : 1U, units.size()};
+  return checked(Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT16, 2, dimensions.data(), units.data(), 0));
+}
+
+MatVariable make_numbers(std::vector<double>& values) {
+  std::array<std::size_t, 2> dimensions{values.size(), 1};
+  return checked(Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dimensions.data(), values.data(), 0));
+}
+
+MatVariable make_cells(const std::vector<std::string>& texts) {
+  std::array<std::size_t, 2> dimensions{texts.size(), 1};
+  MatVariable cells =
+      checked(Mat_VarCreate(nullptr, MAT_C_CELL, MAT_T_CELL, 2, dimensions.data(), nullptr, 0));
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    Mat_VarSetCell(cells.get(), static_cast<int>(k), make_text(texts[k]).release());
+  return cells;
+}
+
+/// Fields of a struct, with names that differ.
+class MatStruct {
+ public:
+  void add(const std::string& name, MatVariable value) {
+    std::string taken = matlab_name(name);
+    for (int k = 2; !names_.insert(taken).second; ++k) {
+      const std::string end = "_" + std::to_string(k);
+      taken = matlab_name(name).substr(0, 63 - end.size()) + end;
+    }
+    fields_.emplace_back(std::move(taken), std::move(value));
+  }
+
+  [[nodiscard]] MatVariable make(const std::string& name) {
+    std::vector<const char*> names;
+    for (const auto& field : fields_) names.push_back(field.first.c_str());
+    std::array<std::size_t, 2> dimensions{1, 1};
+    MatVariable made = checked(Mat_VarCreateStruct(name.c_str(), 2, dimensions.data(), names.data(),
+                                                   static_cast<unsigned>(names.size())));
+    for (auto& [field, value] : fields_)
+      Mat_VarSetStructFieldByName(made.get(), field.c_str(), 0, value.release());
+    return made;
+  }
+
+ private:
+  std::set<std::string> names_;
+  std::vector<std::pair<std::string, MatVariable>> fields_;
+};
+
+class MatFile final : public TrajectoryFile {
+ public:
+  MatFile(std::filesystem::path path, const ExportedSweep& sweep) : path_(std::move(path)) {
+    file_ = Mat_CreateVer(path_.c_str(), ("MATLAB 5.0 MAT-file, " + sweep.program).c_str(), MAT_FT_MAT5);
+    if (file_ == nullptr) throw_unwritten(path_, errno);
+    MatStruct info;
+    info.add("id", make_text(sweep.id));
+    info.add("name", make_text(sweep.name));
+    info.add("program", make_text(sweep.program));
+    write(info.make("sweep"));
+    MatStruct results;
+    for (TableColumn column : sweep.results) {
+      results.add(column.name, column.is_text ? make_cells(column.texts) : make_numbers(column.numbers));
+      if (!column.unit.empty()) units_.insert_or_assign(column.name, column.unit);
+    }
+    write(results.make("results"));
+  }
+  ~MatFile() override {
+    if (file_ != nullptr) Mat_Close(file_);
+  }
+  MatFile(const MatFile&) = delete;
+  MatFile& operator=(const MatFile&) = delete;
+
+  void add(const std::string& job, const std::string& job_id, const TrajectoryView& view) override {
+    constexpr std::size_t kMostBytes = 1U << 31U;
+    if (view.samples() * view.channels().size() * sizeof(double) >= kMostBytes)
+      throw std::length_error("the trajectory of " + job_id +
+                              " has more than the 2 GiB of a MAT file; take fewer channels, or HDF5");
+    MatStruct columns;
+    columns.add("job_id", make_text(job_id));
+    for (std::size_t c = 0; c < view.channels().size(); ++c) {
+      const std::string& name = view.channels()[c].key;
+      values_.clear();
+      view.read_column(c)->append_next(view.samples(), values_);
+      columns.add(name, make_numbers(values_));
+      units_.insert_or_assign(name, find_unit(name).value_or(""));
+    }
+    write(columns.make(job));
+  }
+
+  void close() override {
+    MatStruct units;
+    for (const auto& [name, unit] : units_) units.add(name, make_text(unit));
+    write(units.make("units"));
+    if (Mat_Close(std::exchange(file_, nullptr)) != 0) throw_unwritten(path_, errno);
+  }
+
+ private:
+  void write(const MatVariable& variable) {
+    errno = 0;
+    if (Mat_VarWrite(file_, variable.get(), MAT_COMPRESSION_ZLIB) != 0 || errno == ENOSPC)
+      throw_unwritten(path_, errno);
+  }
+
+  std::filesystem::path path_;
+  mat_t* file_ = nullptr;
+  std::map<std::string, std::string> units_;  ///< of all columns
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+std::unique_ptr<TrajectoryFile> create_mat_file(const std::filesystem::path& file,
+                                                const ExportedSweep& sweep) {
+  return std::make_unique<MatFile>(file, sweep);
+}
+
+}  // namespace jobs

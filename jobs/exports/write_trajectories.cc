@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobs/exports/write_trajectories.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "jobs/base/errors.h"
+#include "jobs/results/resource_json.h"
+#include "jobs/store/store_lock.h"
+#include "jobs/trajectories/trajectory_codec.h"
+
+namespace jobs {
+namespace {
+
+constexpr double kMegabyte = 1e6;
+
+/// Trajectory of a job, which is read twice: to know how much there is, and to write it.
+struct StoredJob {
+  std::string name, id;
+};
+
+/// Parts of the sweep's trajectories, by their headers.
+struct Contents {
+  std::vector<StoredJob> jobs;
+  std::vector<engine::QuantityInfo> channels;  ///< of any job
+  double bytes = 0.0;                          ///< of all numbers, at most
+};
+
+std::string name_of_job(std::size_t row) {
+  constexpr std::size_t kDigits = 4;
+  const std::string digits = std::to_string(row + 1);
+  return "job_" + std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits;
+}
+
+/// @throws StorageError that names the job if its trajectory is damaged
+template <typename Use>
+bool read_stored(const SweepReader& reader, const std::string& job_id, const Use& use) {
+  try {
+    return reader.read_trajectory(job_id, use);
+  } catch (const DamagedTrajectory& damage) {
+    throw StorageError("the trajectory of " + job_id + " cannot be read: " + damage.what());
+  }
+}
+
+bool is_wanted(const TrajectoryQuery& query, const std::string& channel) {
+  return query.channels.empty() || channel == "t_s" ||
+         std::ranges::find(query.channels, channel) != query.channels.end();
+}
+
+Contents read_contents(const SweepReader& reader, const SweepResults& sweep, const TrajectoryQuery& query) {
+  Contents contents;
+  std::set<std::string> known;
+  for (std::size_t row = 0; row < sweep.rows.size(); ++row) {
+    const std::string& id = sweep.rows[row].job_id;
+    if (!sweep.rows[row].metrics) continue;
+    const bool has_one = read_stored(reader, id, [&](const StoredBytes& blob) {
+      const PackedTrajectory packed(blob);
+      for (engine::QuantityInfo& channel : packed.channels()) {
+        if (is_wanted(query, channel.key)) contents.bytes += 8.0 * static_cast<double>(packed.samples());
+        if (known.insert(channel.key).second) contents.channels.push_back(std::move(channel));
+      }
+    });
+    if (has_one) contents.jobs.push_back({name_of_job(row), id});
+  }
+  return contents;
+}
+
+/// The part of a query that a job has.
+TrajectoryQuery query_of(const TrajectoryQuery& wanted, const StoredBytes& blob) {
+  TrajectoryQuery query = wanted;
+  if (query.channels.empty()) return query;
+  const std::vector<engine::QuantityInfo> channels = PackedTrajectory(blob).channels();
+  std::erase_if(query.channels, [&](const std::string& key) {
+    return std::ranges::find(channels, key, &engine::QuantityInfo::key) == channels.end();
+  });
+  if (query.channels.empty()) query.channels.emplace_back("t_s");  // none would be all
+  return query;
+}
+
+void check_room(const std::filesystem::path& file, double bytes) {
+  std::error_code unknown;
+  const auto space = std::filesystem::space(std::filesystem::absolute(file).parent_path(), unknown);
+  if (unknown || static_cast<double>(space.available) > bytes) return;
+  const auto megabytes = [](double size) { return std::to_string(std::llround(size / kMegabyte)) + " MB"; };
+  throw StorageError("the file may take " + megabytes(bytes) + " and the disk has " +
+                         megabytes(static_cast<double>(space.available)) +
+                         " left; ask for fewer channels, or for a part of the time",
+                     0, Disk::kFull);
+}
+
+std::unique_ptr<TrajectoryFile> create_file(TrajectoryFileFormat format, const std::filesystem::path& file,
+                                            const ExportedSweep& sweep) {
+  if (format == TrajectoryFileFormat::kNpz) return create_npz_file(file, sweep);
+  return format == TrajectoryFileFormat::kMat ? create_mat_file(file, sweep) : create_hdf5_file(file, sweep);
+}
+
+}  // namespace
+
+void throw_unwritten(const std::filesystem::path& file, int system_error) {
+  throw StorageError("cannot write " + file.string(), 0, disk_state(system_error));
+}
+
+bool write_trajectories(const SweepReader& reader, const SweepResults& sweep, const TrajectoryExport& wanted,
+                        const std::string& program, const std::filesystem::path& file,
+                        const std::function<bool()>& stop) {
+  const Contents contents = read_contents(reader, sweep, wanted.query);
+  if (contents.jobs.empty()) throw WrongState("no job of sweep " + sweep.sweep.id + " has a trajectory");
+  check_query(wanted.query, contents.channels);
+  check_room(file, contents.bytes);
+  const auto written = create_file(wanted.format, file,
+                                   {.id = sweep.sweep.id,
+                                    .name = sweep.sweep.name,
+                                    .program = program,
+                                    .results = to_columns(result_table(sweep, {}))});
+  for (const StoredJob& job : contents.jobs) {
+    if (stop()) return false;
+    read_stored(reader, job.id, [&](const StoredBytes& blob) {
+      TrajectoryView view(blob, query_of(wanted.query, blob));
+      view.load(blob);
+      written->add(job.name, job.id, view);
+    });
+  }
+  written->close();
+  return true;
+}
+
+}  // namespace jobs
