@@ -18,6 +18,17 @@ cat >expected <<'FILES'
 ./share/doc/rpsup/examples/paper.json
 ./share/fish/vendor_completions.d/rpsup.fish
 ./share/man/man1/rpsup.1.gz
+./share/rpsup/python/rpsup/__init__.py
+./share/rpsup/python/rpsup/client.py
+./share/rpsup/python/rpsup/errors.py
+./share/rpsup/python/rpsup/program.py
+./share/rpsup/python/rpsup/progress.py
+./share/rpsup/python/rpsup/py.typed
+./share/rpsup/python/rpsup/study.py
+./share/rpsup/python/rpsup/sweep.py
+./share/rpsup/python/rpsup/table.py
+./share/rpsup/python/rpsup/transport.py
+./share/rpsup/python/rpsup/version.py
 ./share/zsh/site-functions/_rpsup
 FILES
 diff expected files || fail "the files are others"

@@ -25,6 +25,17 @@ cat >expected <<'FILES'
 /etc/rpsup/config.ini
 /usr/bin/rpsup
 /usr/bin/rpsup-validate
+/usr/lib/python3/dist-packages/rpsup/__init__.py
+/usr/lib/python3/dist-packages/rpsup/client.py
+/usr/lib/python3/dist-packages/rpsup/errors.py
+/usr/lib/python3/dist-packages/rpsup/program.py
+/usr/lib/python3/dist-packages/rpsup/progress.py
+/usr/lib/python3/dist-packages/rpsup/py.typed
+/usr/lib/python3/dist-packages/rpsup/study.py
+/usr/lib/python3/dist-packages/rpsup/sweep.py
+/usr/lib/python3/dist-packages/rpsup/table.py
+/usr/lib/python3/dist-packages/rpsup/transport.py
+/usr/lib/python3/dist-packages/rpsup/version.py
 /usr/lib/systemd/system/rpsup.service
 /usr/share/bash-completion/completions/rpsup
 /usr/share/doc/rpsup/NOTICE

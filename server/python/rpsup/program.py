@@ -12,7 +12,7 @@ import subprocess
 import tempfile
 import time
 import weakref
-from typing import Any, List, Optional
+from typing import Optional
 
 from .errors import ProgramError
 
@@ -28,11 +28,12 @@ class Program:
     """
 
     def __init__(self, db: Optional[str], threads: Optional[int], program: Optional[str]) -> None:
+        found = find_program(program)
         self.token = secrets.token_hex(24)
         self._folder = tempfile.TemporaryDirectory(prefix="rpsup-")
         log_name = os.path.join(self._folder.name, "log")
-        command = [find_program(program), "serve", "--port", "0", "--db",
-                   db or os.path.join(self._folder.name, "study.db")]
+        store = db or os.path.join(self._folder.name, "study.db")
+        command = [found, "serve", "--port", "0", "--db", store]
         if threads is not None:
             command += ["--threads", str(threads)]
         # Neither variables nor the file of options: another port or token of theirs would be used.
@@ -40,8 +41,12 @@ class Program:
         environment.update(RPSUP_TOKEN=self.token, XDG_CONFIG_HOME=self._folder.name)
         with open(log_name, "wb") as log:
             # A session of its own: Ctrl-C ends what waits for the program, not the program.
-            self._process = _popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log,
-                                   env=environment, start_new_session=True)
+            try:
+                self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                                 stderr=log, env=environment, start_new_session=True)
+            except OSError as error:
+                self._folder.cleanup()
+                raise ProgramError(f"{found} cannot be run: {error}") from error
         self._end = weakref.finalize(self, _end, self._process, self._folder)
         try:
             self.url = _read_address(self._process, log_name)
@@ -61,13 +66,6 @@ def find_program(program: Optional[str] = None) -> str:
         where = f"{program} is not there, or cannot be run" if program else "no folder of PATH has rpsup"
         raise ProgramError(f"the program rpsup is not installed: {where}; its README says how to install it")
     return found
-
-
-def _popen(command: List[str], **how: Any) -> subprocess.Popen[bytes]:
-    try:
-        return subprocess.Popen(command, **how)
-    except OSError as error:
-        raise ProgramError(f"{command[0]} cannot be run: {error}") from error
 
 
 def _read_address(process: subprocess.Popen[bytes], log_name: str) -> str:

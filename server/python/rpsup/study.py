@@ -52,7 +52,7 @@ class Work:
 
         Args:
             timeout_s: longest time to wait, [s]; without end if left out.
-            progress: False draws no bar, True always draws one; if left out, terminals and notebooks have one.
+            progress: False draws no bar, True always one; if left out, terminals and notebooks have one.
         Raises:
             TimeoutError: it has not ended; it goes on, and can be waited for again.
         """

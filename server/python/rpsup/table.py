@@ -33,6 +33,7 @@ class Tables:
         first = [schemas[name] for name in ("Metrics", "Trajectory") if name in schemas]
         for schema in [*first, schemas]:
             self._collect(schema)
+        self._patterns.sort(key=lambda one: -len(one[0].pattern))  # "_n_m$" before "_m$"
         self._ends: Dict[str, str] = {}
         for unit in self._units.values():
             if unit:
@@ -45,7 +46,7 @@ class Tables:
         if name in self._units:
             return self._units[name]
         for pattern, schema in self._patterns:
-            if pattern.search(name) and "x-unit" in schema:
+            if pattern.search(name):
                 return str(schema["x-unit"])
         words = name.split("_")
         for begin in range(1, len(words)):
@@ -106,7 +107,8 @@ class Tables:
                     if known != schema["x-unit"] and name not in self._main_names():
                         self._units[name] = None
             for text, schema in _mapping(value.get("patternProperties")).items():
-                self._patterns.append((re.compile(text), schema))
+                if isinstance(schema, Mapping) and "x-unit" in schema:
+                    self._patterns.append((re.compile(text), schema))
             for part in value.values():
                 self._collect(part)
         elif isinstance(value, list):

@@ -133,6 +133,8 @@ class Transport:
                 connection.request(method, target, data, dict(headers))
                 response = connection.getresponse()
             got = {name.lower(): value for name, value in response.getheaders()}
+            if not {"content-length", "transfer-encoding"} & set(got) and response.status != 204:
+                raise _Lost(EOFError("the head of the answer ended early"), reached=True)
             if file is not None and response.status < 300:
                 _write_blocks(response, file)
                 return Answer(response.status, got, b"")
