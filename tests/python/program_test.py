@@ -7,6 +7,7 @@ import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import rpsup
@@ -37,10 +38,30 @@ class Starts(unittest.TestCase):
         client.close()  # once more does nothing
 
     def test_ends_with_the_interpreter(self):
-        code = "import rpsup, sys; client = rpsup.start(program=sys.argv[1]); print(client._program._process.pid)"
+        code = "import rpsup, sys; client = rpsup.start(program=sys.argv[1]); print(client.url)"
         done = subprocess.run([sys.executable, "-c", code, PROGRAM], capture_output=True, text=True, check=True)
-        with self.assertRaises(ProcessLookupError):
-            os.kill(int(done.stdout), 0)
+        with self.assertRaises(rpsup.Unreachable):
+            rpsup.Client(done.stdout.strip(), patience_s=0).newest(rpsup.Sweep)
+
+    def test_ends_with_a_process_that_is_killed(self):
+        code = """
+import os, rpsup, signal, sys
+client = rpsup.start(sys.argv[2], program=sys.argv[1])
+print(client.submit(clearance_mm=[0.1], duration_s=600).id, flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+        store = os.path.join(self.folder, "study.db")
+        done = subprocess.run([sys.executable, "-c", code, PROGRAM, store], capture_output=True, text=True)
+        self.assertEqual(done.returncode, -9)
+        for _ in range(300):  # until the program has left the store
+            try:
+                with rpsup.start(store, program=PROGRAM) as client:
+                    client.sweep(done.stdout.strip()).cancel()
+                return
+            except rpsup.ProgramError as error:
+                self.assertIn("exit code 3", str(error))
+                time.sleep(0.1)
+        self.fail("the program goes on")
 
     def test_lives_on_when_a_wait_is_interrupted(self):
         code = """
@@ -92,7 +113,7 @@ with rpsup.start(program=sys.argv[1]) as client:
         garbage = self.script("rpsup", "")
         with open(garbage, "wb") as file:
             file.write(b"\x7fELF nonsense")
-        with self.assertRaisesRegex(rpsup.ProgramError, "cannot be run"):
+        with self.assertRaisesRegex(rpsup.ProgramError, "ended at its start"):
             rpsup.start(program=garbage)
 
 

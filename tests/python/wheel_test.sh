@@ -33,8 +33,8 @@ with rpsup.start() as client:
     table = client.submit(open("study.json").read()).wait().results()
 print(rpsup.__version__, rpsup.__file__, len(table), table.attrs["units"]["peak_slider_acceleration_m_s2"])
 END
-# The paper's study, of which each job is short here.
-jq '.parameters += {"duration_s": 0.1, "run_up_s": 0.05}' "$sources/script/paper.json" >study.json
+# The paper's study, of which each job is short here, without replicates.
+jq 'del(.replicates) | .parameters += {"duration_s": 0.1, "run_up_s": 0.05}' "$sources/script/paper.json" >study.json
 jobs=$("$rpsup" sweep study.json --db count.db --results count.json 2>/dev/null && jq length count.json)
 for source in "$wheel" "$archive"; do
   rm -rf environment

@@ -19,12 +19,15 @@ from .errors import ProgramError
 START_S = 60.0  # a store of many gigabytes that was not closed is read at the start
 STOP_S = 60.0  # running jobs are put back into the queue
 SAID = "rpsup listens on "
+# The shell ends the program when its own input ends, which it does however this process ends.
+WATCH = '"$@" </dev/null & exec >&-; read -r _; kill "$!" 2>/dev/null; wait "$!"'
 
 
 class Program:
     """Running `rpsup serve` on a free port, which only who knows the token may use.
 
-    The program ends with `stop()`, with the last reference to this object, and with the interpreter.
+    The program ends with `stop()`, with the last reference to this object, and with this process, also if
+    that is killed.
     """
 
     def __init__(self, db: Optional[str], threads: Optional[int], program: Optional[str]) -> None:
@@ -41,12 +44,9 @@ class Program:
         environment.update(RPSUP_TOKEN=self.token, XDG_CONFIG_HOME=self._folder.name)
         with open(log_name, "wb") as log:
             # A session of its own: Ctrl-C ends what waits for the program, not the program.
-            try:
-                self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                                 stderr=log, env=environment, start_new_session=True)
-            except OSError as error:
-                self._folder.cleanup()
-                raise ProgramError(f"{found} cannot be run: {error}") from error
+            self._process = subprocess.Popen(["/bin/sh", "-c", WATCH, "rpsup", *command], stdin=subprocess.PIPE,
+                                             stdout=subprocess.PIPE, stderr=log, env=environment,
+                                             start_new_session=True)
         self._end = weakref.finalize(self, _end, self._process, self._folder)
         try:
             self.url = _read_address(self._process, log_name)
@@ -69,7 +69,7 @@ def find_program(program: Optional[str] = None) -> str:
 
 
 def _read_address(process: subprocess.Popen[bytes], log_name: str) -> str:
-    assert process.stdout is not None
+    assert process.stdin is not None and process.stdout is not None
     said, end = b"", time.monotonic() + START_S
     while b"\n" not in said:
         left_s = end - time.monotonic()
@@ -77,6 +77,7 @@ def _read_address(process: subprocess.Popen[bytes], log_name: str) -> str:
             raise ProgramError(f"rpsup was not ready within {START_S:.0f} s{_end_of_log(log_name)}")
         block = os.read(process.stdout.fileno(), 4096)
         if not block:
+            process.stdin.close()
             code = process.wait()
             raise ProgramError(f"rpsup ended at its start with exit code {code}{_end_of_log(log_name)}")
         said += block
@@ -93,13 +94,12 @@ def _end_of_log(log_name: str) -> str:
 
 
 def _end(process: subprocess.Popen[bytes], folder: tempfile.TemporaryDirectory[str]) -> None:
-    if process.poll() is None:
-        process.send_signal(signal.SIGTERM)
-        try:
-            process.wait(STOP_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-    if process.stdout is not None:
-        process.stdout.close()
+    assert process.stdin is not None and process.stdout is not None
+    process.stdin.close()
+    try:
+        process.wait(STOP_S)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)  # the shell, whose session this is, and the program
+        process.wait()
+    process.stdout.close()
     folder.cleanup()
