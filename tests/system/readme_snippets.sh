@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs the snippets in other languages that a document shows below a line `<!-- run by a test, in LANGUAGE -->`, against a service that
-# has a sweep.   readme_snippets.sh RPSUP DOCUMENT
+# has a sweep.   readme_snippets.sh RPSUP DOCUMENT PACKAGE CLASS
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 readme=$2
+export PYTHONPATH=$3 PYTHONDONTWRITEBYTECODE=1
+class=$4
 
 # snippet LANGUAGE: the block below the mark
 snippet() {
@@ -13,7 +15,7 @@ snippet() {
     inside && /^```$/ { inside = 0; next }
     inside { print }
     END { if (blocks != 1) { print "not one block is marked as " mark > "/dev/stderr"; exit 1 } }
-  ' "$readme" | sed "s#http://127\.0\.0\.1:8080#$url#g"
+  ' "$readme" | sed -e "s#http://127\.0\.0\.1:8080#$url#g" -e "s#server/octave#$class#g"
 }
 
 # The one that comes with Debian first: another one on the path need not have its packages.
