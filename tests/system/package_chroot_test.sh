@@ -41,6 +41,18 @@ expect_equal "$(status_of --data @"$system/root/job.json" "$url/v1/jobs")" 201 "
 stop_service TERM
 expect_equal "$code" 0 "exit code of the service"
 
+# The Python package, with Debian's Python and nothing else; root leaves compiled modules behind.
+inside apt-get --quiet=2 install python3 >>apt.log 2>&1
+cat >"$system/root/study.py" <<'END'
+import rpsup
+with rpsup.start() as client:
+    rows = client.submit(clearance_mm=[0, 0.2], duration_s=0.05, run_up_s=0.02).wait().rows()
+print(rpsup.__file__, rpsup.__version__, len(rows))
+END
+expect_equal "$(inside python3 /root/study.py)" \
+  "/usr/lib/python3/dist-packages/rpsup/__init__.py $(inside dpkg-query --show --showformat='${Version}' rpsup) 2" "the Python package"
+[ -d "$system/usr/lib/python3/dist-packages/rpsup/__pycache__" ] || fail "Python compiled nothing, so that the test of what is left behind is none"
+
 # Installed again it keeps what the administrator has changed; removed, too; purged, all but the results.
 inside dpkg --install "/root/$(basename "$package")" >>apt.log 2>&1
 expect_text "$system/etc/rpsup/config.ini" '^port=0$'
