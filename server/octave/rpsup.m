@@ -39,14 +39,17 @@ classdef rpsup
     end
 
     function status = wait(self, id, timeout_s)
-      % Waits until a sweep or job has ended, or TIMEOUT_S have passed (error rpsup:timeout), and returns its status.
+      % Status of a sweep or job once it has ended; after TIMEOUT_S it is the error rpsup:timeout.
       if nargin < 3, timeout_s = Inf; end
       start = tic;
       while true
         left_s = timeout_s - toc(start);
-        status = self.ask('GET', self.path_of(id), {}, '', sprintf('Prefer: wait=%d', max(1, min(20, floor(left_s)))), '');
+        prefer = sprintf('Prefer: wait=%d', max(1, min(20, floor(left_s))));
+        status = self.ask('GET', self.path_of(id), {}, '', prefer, '');
         if any(strcmp(status.state, {'succeeded', 'failed', 'cancelled'})), return; end
-        if toc(start) >= timeout_s, error('rpsup:timeout', '%s is %s after %g s', id, status.state, timeout_s); end
+        if toc(start) >= timeout_s
+          error('rpsup:timeout', '%s is %s after %g s', id, status.state, timeout_s);
+        end
         pause(0.2);
       end
     end
@@ -83,7 +86,8 @@ classdef rpsup
       if ~any(strcmp(ending, {'.h5', '.npz', '.mat'}))
         error('rpsup:file', '%s must end with .h5, .npz or .mat', file);
       end
-      self.ask('GET', [self.path_of(id) '/trajectories'], [{'format', ending(2:end)}, varargin], '', '', file);
+      options = [{'format', ending(2:end)}, varargin];
+      self.ask('GET', [self.path_of(id) '/trajectories'], options, '', '', file);
     end
 
     function status = cancel(self, id)
@@ -99,8 +103,8 @@ classdef rpsup
 
   methods (Access = private)
     function answer = ask(self, method, path, options, body, header, file)
-      % JSON of an answer; FILE takes an answer that is no JSON. Everything is in a file for curl: no argument of a
-      % program shows the token, and no shell reads a name.
+      % JSON of an answer; FILE takes an answer that is no JSON. Everything is in a file for curl: no argument
+      % of a program shows the token, and no shell reads a name.
       folder = tempname();
       mkdir(folder);
       cleanup = onCleanup(@() remove(folder));
@@ -108,9 +112,10 @@ classdef rpsup
       config = fullfile(folder, 'curl');
       got = fullfile(folder, 'answer');
       if ~isempty(body), write_text(fullfile(folder, 'body'), body); end
-      lines = {['request = "' method '"'], ['url = "' self.url path query_of(options) '"'], ['output = "' slashed(got) '"'], ...
-               'silent', 'show-error', 'retry = 4', 'retry-connrefused', 'retry-all-errors', 'retry-max-time = 30', ...
-               'max-time = 3600', 'noproxy = "127.0.0.1,localhost"', 'write-out = "%{http_code}"'};
+      lines = {['request = "' method '"'], ['url = "' self.url path query_of(options) '"'], ...
+               ['output = "' slashed(got) '"'], 'silent', 'show-error', 'write-out = "%{http_code}"', ...
+               'retry = 4', 'retry-connrefused', 'retry-all-errors', 'retry-max-time = 30', ...
+               'max-time = 3600', 'noproxy = "127.0.0.1,localhost"'};
       headers = {header};
       if ~isempty(body)
         lines{end + 1} = ['data-binary = "@' slashed(fullfile(folder, 'body')) '"'];
@@ -174,7 +179,8 @@ function refuse(status, text)
     message = problem.detail;
     faults = cell(0, 1);
     if isfield(problem, 'errors')
-      faults = arrayfun(@(fault) sprintf('%s: %s', fault.pointer, fault.detail), problem.errors(:), 'UniformOutput', false);
+      faults = arrayfun(@(fault) sprintf('%s: %s', fault.pointer, fault.detail), problem.errors(:), ...
+                        'UniformOutput', false);
     end
     if numel(faults) > 1, message = strjoin(faults, sprintf('\n')); end
   catch  % no problem+json, such as that of a proxy

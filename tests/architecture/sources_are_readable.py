@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 WIDEST, LONGEST_HEADER = 110, 300
+SUFFIXES = (".h", ".cc", ".py", ".m")
 TABLES = {"jobs/parameters/parameter_table.cc", "jobs/store/store_schema.cc"}
 
 
@@ -27,7 +28,7 @@ def main():
     root = Path(sys.argv[1])
     planted = [*find_faults("a.h", "//" + "x" * 109), *find_faults("a.h", "\n" * 301), *find_faults("a.cc", "\n" * 301)]
     assert len(planted) == 2, planted
-    sources = [path for folder in ("engine", "jobs", "server") for path in sorted((root / folder).rglob("*")) if path.suffix in (".h", ".cc")]
+    sources = [path for folder in ("engine", "jobs", "server") for path in sorted((root / folder).rglob("*")) if path.suffix in SUFFIXES]
     faults = [fault for path in sources for fault in find_faults(str(path.relative_to(root)), path.read_text(encoding="utf-8"))]
     print("\n".join(faults) or f"{len(sources)} sources are readable")
     sys.exit(1 if faults or not sources else 0)

@@ -44,9 +44,9 @@ class Program:
         environment.update(RPSUP_TOKEN=self.token, XDG_CONFIG_HOME=self._folder.name)
         with open(log_name, "wb") as log:
             # A session of its own: Ctrl-C ends what waits for the program, not the program.
-            self._process = subprocess.Popen(["/bin/sh", "-c", WATCH, "rpsup", *command], stdin=subprocess.PIPE,
-                                             stdout=subprocess.PIPE, stderr=log, env=environment,
-                                             start_new_session=True)
+            self._process = subprocess.Popen(
+                ["/bin/sh", "-c", WATCH, "rpsup", *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                stderr=log, env=environment, start_new_session=True)
         self._end = weakref.finalize(self, _end, self._process, self._folder)
         try:
             self.url = _read_address(self._process, log_name)
