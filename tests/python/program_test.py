@@ -89,9 +89,10 @@ with rpsup.start(program=sys.argv[1]) as client:
             self.assertEqual(client.get("/v1/executors")["items"][0]["slots"], 1)
 
     def test_options_of_the_environment_are_not_those_of_the_program(self):
-        os.environ["RPSUP_PORT"] = "1"
-        self.addCleanup(os.environ.pop, "RPSUP_PORT")
+        os.environ["RPSUP_THREADS"] = "13"
+        self.addCleanup(os.environ.pop, "RPSUP_THREADS")
         with rpsup.start(program=PROGRAM) as client:
+            self.assertNotEqual(client.get("/v1/executors")["items"][0]["slots"], 13)
             self.assertEqual(client.newest(rpsup.Sweep), [])
             with self.assertRaises(rpsup.Error) as caught:
                 rpsup.Client(client.url).newest(rpsup.Sweep)
