@@ -170,6 +170,9 @@ class Studies(WithProgram):
                                     metric="peak_slider_acceleration_m_s2", bound=1e6, parameters=SHORT).wait()
         self.assertEqual([limit["verdict"] for limit in search.limits()], ["never_exceeded"])
         self.assertEqual(list(search.results().verdict), ["never_exceeded"])
+        is_monotonic = search.limits()[0]["monotonic"]
+        self.assertEqual([len(search.rows(monotonic=value)) for value in (is_monotonic, not is_monotonic)], [1, 0])
+        self.assertEqual(str(search.results().monotonic.dtype), "bool")
         self.assertEqual(self.client.newest(rpsup.Search)[0].id, search.id)
         self.assertEqual(self.client.of(rpsup.Search, search.id).status()["state"], "succeeded")
 

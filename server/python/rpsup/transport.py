@@ -194,12 +194,13 @@ def _plain(value: Any) -> Any:
 
 
 def _query_of(query: Query) -> str:
-    """Lists are joined by commas; what is None is left out."""
+    """Lists are joined by commas, truth values are those of JSON; what is None is left out."""
     pairs = []
     for key, value in (query or {}).items():
-        if value is not None:
-            is_list = isinstance(value, (list, tuple))
-            pairs.append((key, ",".join(map(str, value)) if is_list else str(value)))
+        if isinstance(value, (list, tuple)):
+            pairs.append((key, ",".join(map(str, value))))
+        elif value is not None:
+            pairs.append((key, str(value).lower() if isinstance(value, bool) else str(value)))
     return f"?{urlencode(pairs, safe=',:', quote_via=quote)}" if pairs else ""
 
 
