@@ -1,6 +1,7 @@
 % SPDX-License-Identifier: Apache-2.0
 classdef rpsup
-  % Client of an RPSUP service, for Octave 7 and MATLAB. Needs the program curl 7.71 or newer.
+  % Client of an RPSUP service, for Octave 7, with which it is tested, and MATLAB. Needs the program curl,
+  % 7.71 or newer.
   %
   %   service = rpsup('http://127.0.0.1:8080');    % or rpsup(): RPSUP_URL and RPSUP_TOKEN of the environment
   %   id = service.submit('{"sweep": {"clearance_mm": [0, 0.25], "coupler": ["rigid", "flexible"]}}');

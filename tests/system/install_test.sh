@@ -18,6 +18,7 @@ cat >expected <<'FILES'
 ./share/doc/rpsup/examples/paper.json
 ./share/fish/vendor_completions.d/rpsup.fish
 ./share/man/man1/rpsup.1.gz
+./share/rpsup/octave/rpsup.m
 ./share/rpsup/python/rpsup/__init__.py
 ./share/rpsup/python/rpsup/client.py
 ./share/rpsup/python/rpsup/errors.py

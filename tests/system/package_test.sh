@@ -43,6 +43,7 @@ cat >expected <<'FILES'
 /usr/share/doc/rpsup/examples/paper.json
 /usr/share/fish/vendor_completions.d/rpsup.fish
 /usr/share/man/man1/rpsup.1.gz
+/usr/share/rpsup/octave/rpsup.m
 /usr/share/zsh/vendor-completions/_rpsup
 FILES
 diff expected files || fail "the files are others"
