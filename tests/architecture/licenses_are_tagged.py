@@ -11,8 +11,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-SUFFIXES = {".h", ".cc", ".in", ".js", ".mjs", ".css", ".py", ".sh", ".cmake", ".jq"}
-TAG = re.compile(r"(?://|#|/\*) SPDX-License-Identifier: (.+?)(?: \*/)?$")
+SUFFIXES = {".h", ".cc", ".in", ".js", ".mjs", ".css", ".py", ".sh", ".cmake", ".jq", ".m", ".toml"}
+TAG = re.compile(r"(?://|#|%|/\*) SPDX-License-Identifier: (.+?)(?: \*/)?$")
 
 
 def sources(root):

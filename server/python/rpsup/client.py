@@ -6,7 +6,7 @@ from __future__ import annotations
 import io
 import json
 import os
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Type, TypeVar, Union
+from typing import Any, Dict, List, Mapping, Optional, Type, TypeVar, Union
 
 from .errors import BadAnswer
 from .program import Program
