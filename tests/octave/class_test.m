@@ -29,12 +29,15 @@ expect(isequal(table.clearance_mm, [0; 0; 0.25; 0.25]), 'a column of numbers');
 expect(isequal(table.coupler, {'rigid'; 'flexible'; 'rigid'; 'flexible'}), 'a column of texts');
 expect(isequal(isnan(table.peak_contact_force_n), table.clearance_mm == 0), 'a column with gaps');
 expect(all(isnan(table.mean_crank_velocity_rad_s)), 'a column of gaps');
-some = service.results(id, 'fields', {'clearance_mm', 'job_id'}, 'order_by', {'-clearance_mm'}, 'coupler', 'rigid', 'limit', 1);
-expect(isequal(fieldnames(some), {'clearance_mm'; 'job_id'}) && isequal(some.clearance_mm, 0.25), 'fields, order, filter');
+some = service.results(id, 'fields', {'clearance_mm', 'job_id'}, 'order_by', {'-clearance_mm'}, ...
+                       'coupler', 'rigid', 'limit', 1);
+expect(isequal(fieldnames(some), {'clearance_mm'; 'job_id'}), 'fields');
+expect(isequal(some.clearance_mm, 0.25), 'order, filter, limit');
 expect(strcmp(some.job_id{1}, table.job_id{3}), 'the same job');
 expect(isempty(fieldnames(service.results(id, 'state', 'failed'))), 'no rows');
 
-run = service.trajectory(some.job_id{1}, 'channels', {'slider_acceleration_m_s2', 'journal_x_mm'}, 'from_s', 0.1, 'to_s', 0.2);
+channels = {'slider_acceleration_m_s2', 'journal_x_mm'};
+run = service.trajectory(some.job_id{1}, 'channels', channels, 'from_s', 0.1, 'to_s', 0.2);
 expect(isequal(fieldnames(run), {'t_s'; 'slider_acceleration_m_s2'; 'journal_x_mm'}), 'the channels');
 expect(all(run.t_s >= 0.1 & run.t_s <= 0.2) && all(diff(run.t_s) > 0) && numel(run.t_s) > 50, 'the times');
 expect(numel(run.journal_x_mm) == numel(run.t_s), 'a column of a trajectory');
@@ -42,9 +45,12 @@ thin = service.trajectory(some.job_id{1}, 'channels', {'journal_x_mm'}, 'points'
 expect(numel(thin.t_s) <= 20, 'the number of points');
 
 % Faults are all named, and text is taken as text.
-[identifier, message] = error_of(@() service.submit('{"parameters": {"clearence_mm": 0.1, "restitution": 1.5}}'));
+wrong = '{"parameters": {"clearence_mm": 0.1, "restitution": 1.5}}';
+[identifier, message] = error_of(@() service.submit(wrong));
 expect(strcmp(identifier, 'rpsup:refused'), 'the identifier of a refusal');
-expect(~isempty(strfind(message, '422')) && ~isempty(strfind(message, 'clearance_mm?')) && ~isempty(strfind(message, '[0, 1]')), message);
+for part = {'422', 'clearance_mm?', '[0, 1]'}
+  expect(~isempty(strfind(message, part{1})), message);
+end
 [identifier, message] = error_of(@() service.trajectory('job_none'));
 expect(strcmp(identifier, 'rpsup:refused') && ~isempty(strfind(message, '404')), message);
 [identifier, message] = error_of(@() rpsup(getenv('URL'), 'wrong').results(id));
@@ -62,6 +68,7 @@ expect(strcmp(error_of(@() service.wait(long)), 'rpsup:refused'), 'a deleted swe
 % A server that fails: the request is sent again, the file is written.
 failing = rpsup([getenv('FAILING') '/'], '');
 expect(strcmp(failing.submit(request), 'swp_1'), 'a submission that was sent again');
-file = failing.trajectories('swp_1', 'study.npz', 'channels', {'journal_x_mm', 'journal_y_mm'}, 'from_s', 0.5, 'to_s', 2);
+channels = {'journal_x_mm', 'journal_y_mm'};
+file = failing.trajectories('swp_1', 'study.npz', 'channels', channels, 'from_s', 0.5, 'to_s', 2);
 expect(strcmp(file, 'study.npz') && exist(file, 'file') == 2, 'a file');
 disp('all of the class works');

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Server that drops the first submission, has no room for the second, and takes the third; it prints its address.
+"""Server that drops one submission, has no room for the next, and takes the third. It prints its address.
 
   failing_server.py FILE   writes a line for each request: method, path, idempotency key
 """

@@ -29,22 +29,34 @@ class Sweeps(WithProgram):
         self.assertEqual([list(row) for row in rows], [list(row) for row in table])
         self.assertEqual([row["job_id"] for row in rows], [row["job_id"] for row in table])
         for row, text in zip(rows, table):
-            self.assertEqual(row["peak_slider_acceleration_m_s2"], float(text["peak_slider_acceleration_m_s2"]))
-        self.assertEqual([(row["clearance_mm"], row["coupler"]) for row in rows],
-                         [(0, "rigid"), (0, "flexible"), (0.25, "rigid"), (0.25, "flexible")])
+            self.assertEqual(
+                row["peak_slider_acceleration_m_s2"], float(text["peak_slider_acceleration_m_s2"])
+            )
+        self.assertEqual(
+            [(row["clearance_mm"], row["coupler"]) for row in rows],
+            [(0, "rigid"), (0, "flexible"), (0.25, "rigid"), (0.25, "flexible")],
+        )
 
     def test_filters_fields_and_order(self):
-        rows = self.sweep.rows(fields=["clearance_mm", "steps"], coupler="rigid", clearance_mm_ge=0,
-                               order_by=["-clearance_mm"], limit=2)
+        rows = self.sweep.rows(
+            fields=["clearance_mm", "steps"],
+            coupler="rigid",
+            clearance_mm_ge=0,
+            order_by=["-clearance_mm"],
+            limit=2,
+        )
         self.assertEqual([row["clearance_mm"] for row in rows], [0.25, 0])
         self.assertEqual(list(rows[0]), ["clearance_mm", "steps"])
         self.assertEqual(len(self.sweep.jobs(coupler="rigid")), 2)
 
     def test_requests_by_name_as_dict_and_as_text_are_one(self):
         whole = {"parameters": TINY, "sweep": {"clearance_mm": [0.1, 0.2]}, "name": "thrice"}
-        sweeps = [self.client.submit(whole), self.client.submit(json.dumps(whole)),
-                  self.client.submit(name="thrice", clearance_mm=[0.1, 0.2], **TINY),
-                  self.client.submit(name="thrice", clearance_mm=range(0, 1), **TINY)]
+        sweeps = [
+            self.client.submit(whole),
+            self.client.submit(json.dumps(whole)),
+            self.client.submit(name="thrice", clearance_mm=[0.1, 0.2], **TINY),
+            self.client.submit(name="thrice", clearance_mm=range(0, 1), **TINY),
+        ]
         requests = [sweep.status()["request"] for sweep in sweeps]
         self.assertEqual(requests[0], requests[1])
         self.assertEqual(requests[0], requests[2])
@@ -59,8 +71,9 @@ class Sweeps(WithProgram):
             self.client.submit(clearence_mm=0.1, restitution=1.5)
         error = caught.exception
         self.assertEqual((error.status, error.code), (422, "Unprocessable Content"))
-        self.assertEqual({fault.pointer for fault in error.faults},
-                         {"/parameters/clearence_mm", "/parameters/restitution"})
+        self.assertEqual(
+            {fault.pointer for fault in error.faults}, {"/parameters/clearence_mm", "/parameters/restitution"}
+        )
         self.assertIn("did you mean clearance_mm?", str(error))
         self.assertIn("must be a number in [0, 1]", str(error))
         with self.assertRaises(rpsup.Error) as caught:
@@ -95,14 +108,18 @@ class Sweeps(WithProgram):
         self.assertEqual(sweep.wait().status()["state"], "cancelled")
 
     def test_failed_jobs_end_a_wait_and_say_why(self):
-        sweep = self.client.submit(clearance_mm=[0.25], integrator="rk4", step_s=1e-3, **SHORT).wait(timeout_s=60)
+        sweep = self.client.submit(clearance_mm=[0.25], integrator="rk4", step_s=1e-3, **SHORT).wait(
+            timeout_s=60
+        )
         rows = sweep.rows(fields=["state", "error_reason"])
         self.assertEqual([tuple(row.values()) for row in rows], [("failed", "non_finite")])
 
     def test_analyses_of_a_sweep(self):
         table = self.sweep.flexibility()
-        peaks = {(row["clearance_mm"], row["coupler"]): row["peak_slider_acceleration_m_s2"]
-                 for row in self.sweep.rows()}
+        peaks = {
+            (row["clearance_mm"], row["coupler"]): row["peak_slider_acceleration_m_s2"]
+            for row in self.sweep.rows()
+        }
         for row in table.itertuples():
             expected = peaks[row.clearance_mm, "flexible"] / peaks[row.clearance_mm, "rigid"]
             self.assertAlmostEqual(row.ratio, expected, places=12)
@@ -147,11 +164,14 @@ class Jobs(WithProgram):
         thinned = self.client.trajectory(job.id, channels, points=20, frame=True)
         self.assertLessEqual(len(thinned), 20)
         self.assertEqual(thinned.index.name, "t_s")
-        self.assertEqual(thinned.attrs["units"],
-                         {"t_s": "s", "slider_acceleration_m_s2": "m/s²", "journal_x_mm": "mm"})
+        self.assertEqual(
+            thinned.attrs["units"], {"t_s": "s", "slider_acceleration_m_s2": "m/s²", "journal_x_mm": "mm"}
+        )
 
     def test_analyses_of_a_job(self):
-        job = self.client.submit_job(clearance_mm=0.25, crank_velocity_rad_s=40, duration_s=0.6, run_up_s=0.1).wait()
+        job = self.client.submit_job(
+            clearance_mm=0.25, crank_velocity_rad_s=40, duration_s=0.6, run_up_s=0.1
+        ).wait()
         spectrum = job.spectrum("slider_acceleration_m_s2", window="flat_top", from_s=0.1, frame=True)
         self.assertEqual(spectrum.index.name, "frequency_hz")
         self.assertEqual(spectrum.attrs["units"]["frequency_hz"], "Hz")
@@ -166,30 +186,44 @@ class Jobs(WithProgram):
 
 class Studies(WithProgram):
     def test_search(self):
-        search = self.client.search(over={"clearance_mm": {"from": 0.05, "to": 0.45, "tolerance": 0.2, "first": 2}},
-                                    metric="peak_slider_acceleration_m_s2", bound=1e6, parameters=SHORT).wait()
+        search = self.client.search(
+            over={"clearance_mm": {"from": 0.05, "to": 0.45, "tolerance": 0.2, "first": 2}},
+            metric="peak_slider_acceleration_m_s2",
+            bound=1e6,
+            parameters=SHORT,
+        ).wait()
         self.assertEqual([limit["verdict"] for limit in search.limits()], ["never_exceeded"])
         self.assertEqual(list(search.results().verdict), ["never_exceeded"])
         is_monotonic = search.limits()[0]["monotonic"]
-        self.assertEqual([len(search.rows(monotonic=value)) for value in (is_monotonic, not is_monotonic)], [1, 0])
+        self.assertEqual(
+            [len(search.rows(monotonic=value)) for value in (is_monotonic, not is_monotonic)], [1, 0]
+        )
         self.assertEqual(str(search.results().monotonic.dtype), "bool")
         self.assertEqual(self.client.newest(rpsup.Search)[0].id, search.id)
         self.assertEqual(self.client.of(rpsup.Search, search.id).status()["state"], "succeeded")
 
     def test_wear(self):
-        study = self.client.wear(hours=1000, max_cycles=2, sectors=8, wear_coefficient_m2_n=1e-16,
-                                 parameters={"clearance_mm": 0.25, **SHORT}).wait()
+        study = self.client.wear(
+            hours=1000,
+            max_cycles=2,
+            sectors=8,
+            wear_coefficient_m2_n=1e-16,
+            parameters={"clearance_mm": 0.25, **SHORT},
+        ).wait()
         table = study.results()
         self.assertGreaterEqual(len(table), 1)
         self.assertTrue((table.hours.diff().dropna() > 0).all())
 
     def test_optimisation(self):
         over = {"clearance_mm": {"from": 0.05, "to": 0.4}, "restitution": {"from": 0.6, "to": 0.9}}
-        study = self.client.optimise(over=over, objectives=[{"metric": "steps"}], budget=10, starts=1, population=5,
-                                     parameters=TINY).wait()
+        study = self.client.optimise(
+            over=over, objectives=[{"metric": "steps"}], budget=10, starts=1, population=5, parameters=TINY
+        ).wait()
         best = min(study.rows(state="feasible"), key=lambda row: row["steps"])
         self.assertEqual(study.best()["metrics"]["steps"], best["steps"])
-        self.assertIn(best["clearance_mm"], (candidate["values"]["clearance_mm"] for candidate in study.front()))
+        self.assertIn(
+            best["clearance_mm"], (candidate["values"]["clearance_mm"] for candidate in study.front())
+        )
 
     def test_measurement_and_fit(self):
         shared = {"coupler": "rigid", "clearance_mm": 0, "run_up_s": 0.1}
@@ -204,10 +238,17 @@ class Studies(WithProgram):
         measured = self.client.measure(path, channels={"acc": "slider_acceleration_m_s2"})
         self.assertEqual(measured.status()["name"], "bench.csv")
         data = measured.data(from_s=0.1)
-        self.assertEqual(data["slider_acceleration_m_s2"].tolist(),
-                         job.trajectory(["slider_acceleration_m_s2"], from_s=0.1)["slider_acceleration_m_s2"].tolist())
-        fit = self.client.fit(over={"guide_angle_deg": {"from": -5, "to": 5}}, measurements=[measured], budget=30,
-                              intervals="linearised", parameters=shared)
+        self.assertEqual(
+            data["slider_acceleration_m_s2"].tolist(),
+            job.trajectory(["slider_acceleration_m_s2"], from_s=0.1)["slider_acceleration_m_s2"].tolist(),
+        )
+        fit = self.client.fit(
+            over={"guide_angle_deg": {"from": -5, "to": 5}},
+            measurements=[measured],
+            budget=30,
+            intervals="linearised",
+            parameters=shared,
+        )
         (parameter,) = fit.wait().parameters()
         self.assertAlmostEqual(parameter["value"], 1.0, delta=0.01)  # that of the job that was measured
         self.assertGreater(len(fit.signals()), 10)
@@ -218,8 +259,19 @@ class Studies(WithProgram):
 
     def test_measurements_of_arrays(self):
         import numpy
-        measured = self.client.measure({"name": "two", "channels": [{"name": "slider_acceleration_m_s2"}], "runs": [
-            {"time_s": numpy.array([0, 0.001]), "values": {"slider_acceleration_m_s2": numpy.array([0.5, 1])}}]})
+
+        measured = self.client.measure(
+            {
+                "name": "two",
+                "channels": [{"name": "slider_acceleration_m_s2"}],
+                "runs": [
+                    {
+                        "time_s": numpy.array([0, 0.001]),
+                        "values": {"slider_acceleration_m_s2": numpy.array([0.5, 1])},
+                    }
+                ],
+            }
+        )
         self.assertEqual(measured.data()["slider_acceleration_m_s2"].tolist(), [0.5, 1])
         with self.assertRaisesRegex(ValueError, "csv, .npz or .json"):
             self.client.measure("bench.txt")

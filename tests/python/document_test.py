@@ -43,8 +43,13 @@ def main():
     script = "\n".join(blocks_of(text, "run by a test", "python"))
     environment = {"PATH": f"{os.path.dirname(program)}:{os.environ['PATH']}", "PYTHONPATH": package}
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, cwd=folder,
-                              env={**os.environ, **environment})
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", script],
+            capture_output=True,
+            text=True,
+            cwd=folder,
+            env={**os.environ, **environment},
+        )
     printed = "".join(f"{line.rstrip()}\n" for line in done.stdout.splitlines())
     missing = first_missing(printed, blocks_of(text, "its output", "text"))
     if done.returncode != 0 or missing is not None:

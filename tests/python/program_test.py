@@ -39,7 +39,9 @@ class Starts(unittest.TestCase):
 
     def test_ends_with_the_interpreter(self):
         code = "import rpsup, sys; client = rpsup.start(program=sys.argv[1]); print(client.url)"
-        done = subprocess.run([sys.executable, "-c", code, PROGRAM], capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            [sys.executable, "-c", code, PROGRAM], capture_output=True, text=True, check=True
+        )
         with self.assertRaises(rpsup.Unreachable):
             rpsup.Client(done.stdout.strip(), patience_s=0).newest(rpsup.Sweep)
 
@@ -74,7 +76,9 @@ with rpsup.start(program=sys.argv[1]) as client:
     except KeyboardInterrupt:
         print(sweep.cancel()["state"])
 """
-        done = subprocess.run([sys.executable, "-c", code, PROGRAM], capture_output=True, text=True, start_new_session=True)
+        done = subprocess.run(
+            [sys.executable, "-c", code, PROGRAM], capture_output=True, text=True, start_new_session=True
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn(done.stdout.strip(), ("running", "cancelled"))
 
@@ -101,14 +105,19 @@ with rpsup.start(program=sys.argv[1]) as client:
     def test_a_program_that_is_not_installed(self):
         path, os.environ["PATH"] = os.environ["PATH"], self.folder
         self.addCleanup(os.environ.__setitem__, "PATH", path)
-        with self.assertRaisesRegex(rpsup.ProgramError, "the program rpsup is not installed: no folder of PATH"):
+        with self.assertRaisesRegex(
+            rpsup.ProgramError, "the program rpsup is not installed: no folder of PATH"
+        ):
             rpsup.start()
         with self.assertRaisesRegex(rpsup.ProgramError, "/nowhere/rpsup is not there"):
             rpsup.start(program="/nowhere/rpsup")
 
     def test_a_program_that_is_another_one(self):
-        for text, said in {"echo hello; sleep 60": "it said 'hello'", "echo no room >&2; exit 3": "code 3:\n  no room",
-                           "exec sleep 0.1": "code 0"}.items():
+        for text, said in {
+            "echo hello; sleep 60": "it said 'hello'",
+            "echo no room >&2; exit 3": "code 3:\n  no room",
+            "exec sleep 0.1": "code 0",
+        }.items():
             with self.subTest(text), self.assertRaisesRegex(rpsup.ProgramError, said):
                 rpsup.start(program=self.script("rpsup", text))
         garbage = self.script("rpsup", "")

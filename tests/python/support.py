@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of the Python package share: the program under test, and a server that answers as it is told."""
+"""What the tests of the package share: the program under test, and a server that answers as it is told."""
 
 import contextlib
 import json
@@ -30,7 +30,11 @@ class WithProgram(unittest.TestCase):
 def http(status, body, *headers, length=None):
     """Bytes of an answer. `length` may claim another length of the body than it has."""
     data = body if isinstance(body, bytes) else json.dumps(body).encode()
-    lines = [f"HTTP/1.1 {status} Said", f"Content-Length: {len(data) if length is None else length}", *headers]
+    lines = [
+        f"HTTP/1.1 {status} Said",
+        f"Content-Length: {len(data) if length is None else length}",
+        *headers,
+    ]
     return "\r\n".join([*lines, "Connection: close", "", ""]).encode() + data
 
 
@@ -69,7 +73,9 @@ class FakeServer:
                 return
             with connection, connection.makefile("rb") as stream:
                 first = stream.readline().decode().strip()
-                headers = dict(line.decode().strip().split(": ", 1) for line in iter(stream.readline, b"\r\n"))
+                headers = dict(
+                    line.decode().strip().split(": ", 1) for line in iter(stream.readline, b"\r\n")
+                )
                 request = (first, headers, stream.read(int(headers.get("Content-Length", 0))))
                 self.requests.append(request)
                 connection.sendall(answer(request) if callable(answer) else answer)

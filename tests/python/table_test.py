@@ -34,8 +34,12 @@ class Columns(WithProgram):
     def test_units_of_results_are_those_of_the_service(self):
         units = self.sweep.results().attrs["units"]
         schemas = self.client.get("/v1/openapi.json")["components"]["schemas"]
-        metrics = {name: schema["x-unit"] for name, schema in schemas["Metrics"]["anyOf"][0]["properties"].items()}
-        self.assertEqual(units, {**metrics, "clearance_mm": self.client.parameters()["clearance_mm"]["x-unit"]})
+        metrics = {
+            name: schema["x-unit"] for name, schema in schemas["Metrics"]["anyOf"][0]["properties"].items()
+        }
+        self.assertEqual(
+            units, {**metrics, "clearance_mm": self.client.parameters()["clearance_mm"]["x-unit"]}
+        )
         self.assertGreater(len(metrics), 20)
 
     def test_an_empty_table_has_its_columns(self):
@@ -44,21 +48,33 @@ class Columns(WithProgram):
         self.assertEqual(str(empty.steps.dtype), "int64")
 
     def test_integers_with_gaps_and_truth_values(self):
-        sweep = self.client.submit(cases=[{"integrator": "rk4", "step_s": 1e-3}, {}], clearance_mm=0.25, **SHORT).wait()
+        sweep = self.client.submit(
+            cases=[{"integrator": "rk4", "step_s": 1e-3}, {}], clearance_mm=0.25, **SHORT
+        ).wait()
         table = sweep.results()
         self.assertEqual(list(table.state), ["failed", "succeeded"])
-        self.assertEqual(str(table.impact_count.dtype), "Int64" if table.impact_count.isna().any() else "int64")
-        truths = frame([{"a": True, "b": None}, {"a": False, "b": True}], ["a", "b"], [Column("boolean", None)] * 2)
+        self.assertEqual(
+            str(table.impact_count.dtype), "Int64" if table.impact_count.isna().any() else "int64"
+        )
+        truths = frame(
+            [{"a": True, "b": None}, {"a": False, "b": True}], ["a", "b"], [Column("boolean", None)] * 2
+        )
         self.assertEqual([str(kind) for kind in truths.dtypes], ["bool", "boolean"])
         gaps = frame([{"a": 2**53 + 1}, {"a": None}], ["a"], [Column("integer", "1")])
-        self.assertEqual((str(gaps.a.dtype), gaps.a[0]), ("Int64", 2**53 + 1))  # a double has no such integer
+        self.assertEqual(
+            (str(gaps.a.dtype), gaps.a[0]), ("Int64", 2**53 + 1)
+        )  # a double has no such integer
 
     def test_described_linkages(self):
         with open(FOUR_BAR, encoding="utf-8") as file:
             job = self.client.submit_job(file.read()).wait()
         with open(FOUR_BAR, encoding="utf-8") as file:
-            sweep = self.client.submit({"parameters": rpsup.client._request_of(file.read()),
-                                        "cases": [{"linkage.bodies.rocker.mass_kg": 0.5}, {}]})
+            sweep = self.client.submit(
+                {
+                    "parameters": rpsup.client._request_of(file.read()),
+                    "cases": [{"linkage.bodies.rocker.mass_kg": 0.5}, {}],
+                }
+            )
         table = sweep.wait().results()
         units = table.attrs["units"]
         self.assertEqual(units["linkage.bodies.rocker.mass_kg"], "kg")
@@ -71,9 +87,16 @@ class Columns(WithProgram):
         self.assertEqual(run.attrs["units"]["pose_crank_x_m"], "m")
 
     def test_units_by_name(self):
-        for name, unit in {"clearance_mm": "mm", "axial_stiffness_n_m": "N/m", "crank_torque_n_m": "N m",
-                           "max_penetration_um": "µm", "any_joint_rad_s": "rad/s", "restitution": None,
-                           "amplification": "1", "nothing_of_it": None}.items():
+        for name, unit in {
+            "clearance_mm": "mm",
+            "axial_stiffness_n_m": "N/m",
+            "crank_torque_n_m": "N m",
+            "max_penetration_um": "µm",
+            "any_joint_rad_s": "rad/s",
+            "restitution": None,
+            "amplification": "1",
+            "nothing_of_it": None,
+        }.items():
             self.assertEqual(self.client.unit(name), unit, name)
 
 
@@ -87,19 +110,25 @@ class WithoutPackages(WithProgram):
     """An interpreter without NumPy and pandas, as the option -S of Python makes one."""
 
     def run_bare(self, script):
-        code = f"import sys\nsys.path.insert(0, {os.path.dirname(os.path.dirname(rpsup.__file__))!r})\n{script}"
+        code = (
+            f"import sys\nsys.path.insert(0, {os.path.dirname(os.path.dirname(rpsup.__file__))!r})\n{script}"
+        )
         environment = {"RPSUP_URL": self.client.url, "RPSUP_TOKEN": self.client._program.token}
-        return subprocess.run([sys.executable, "-S", "-B", "-c", code], env=environment, capture_output=True, text=True)
+        return subprocess.run(
+            [sys.executable, "-S", "-B", "-c", code], env=environment, capture_output=True, text=True
+        )
 
     def test_rows_and_trajectories(self):
-        done = self.run_bare(f"""
+        done = self.run_bare(
+            f"""
 import rpsup
 sweep = rpsup.Client().sweep({self.sweep.id!r}).wait()
 print([row["coupler"] for row in sweep.rows()])
 run = sweep.jobs()[0].trajectory(["slider_position_m"], to_s=0.009)
 print(sorted(run), type(run["t_s"]).__name__, len(run["t_s"]))
 assert "numpy" not in sys.modules and "pandas" not in sys.modules
-""")
+"""
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("['rigid', 'flexible', 'rigid', 'flexible']", done.stdout)
         self.assertIn("['slider_position_m', 't_s'] list 10\n", done.stdout)
@@ -112,15 +141,23 @@ assert "numpy" not in sys.modules and "pandas" not in sys.modules
 
 
 class Progress(unittest.TestCase):
-    STATUS = {"counts": {"total": 8, "succeeded": 3, "failed": 1, "cancelled": 0}, "progress": 0.5, "eta_s": 12.4}
+    STATUS = {
+        "counts": {"total": 8, "succeeded": 3, "failed": 1, "cancelled": 0},
+        "progress": 0.5,
+        "eta_s": 12.4,
+    }
 
     def test_says_how_far_a_study_is(self):
         self.assertEqual(progress.text_of(self.STATUS, 10), "[#####-----] 4 of 8 jobs, 1 failed, 12 s left")
         self.assertEqual(progress.text_of({"counts": None, "progress": None}, 4), "[----] 0 of 0 jobs")
 
     def test_draws_on_terminals_only_unless_it_is_asked_to(self):
-        for wanted, is_terminal, is_drawn in ((None, True, True), (None, False, False), (True, False, True),
-                                              (False, True, False)):
+        for wanted, is_terminal, is_drawn in (
+            (None, True, True),
+            (None, False, False),
+            (True, False, True),
+            (False, True, False),
+        ):
             said = io.StringIO()
             said.isatty = lambda: is_terminal
             with contextlib.redirect_stderr(said), progress.Bar(wanted) as bar:
@@ -130,9 +167,9 @@ class Progress(unittest.TestCase):
 
     def test_draws_over_itself_in_a_notebook(self):
         shell, display = mock.Mock(), mock.Mock()
-        with mock.patch.object(progress.builtins, "get_ipython", shell, create=True), \
-                mock.patch.dict(sys.modules, {"IPython": mock.Mock(), "IPython.display": mock.Mock(display=display)}), \
-                progress.Bar() as bar:
+        with mock.patch.object(progress.builtins, "get_ipython", shell, create=True), mock.patch.dict(
+            sys.modules, {"IPython": mock.Mock(), "IPython.display": mock.Mock(display=display)}
+        ), progress.Bar() as bar:
             bar.draw({"counts": {"total": 2, "succeeded": 1}})
             bar.draw({"counts": {"total": 2, "succeeded": 2}})
         self.assertIn("1 of 2 jobs", repr(display.call_args[0][0]))

@@ -11,8 +11,14 @@ import rpsup
 from support import FakeServer, WithProgram, http
 
 CREATED = http(201, {"id": "swp_1"})
-BUSY, FULL = (http(status, {"type": "about:blank", "title": title, "status": status, "detail": "too many"},
-                   "Retry-After: 1") for status, title in ((503, "Service Unavailable"), (429, "Too Many Requests")))
+BUSY, FULL = (
+    http(
+        status,
+        {"type": "about:blank", "title": title, "status": status, "detail": "too many"},
+        "Retry-After: 1",
+    )
+    for status, title in ((503, "Service Unavailable"), (429, "Too Many Requests"))
+)
 
 
 def free_url():
@@ -82,9 +88,13 @@ class Refuses(unittest.TestCase):
         self.assertLess(time.monotonic() - start, 5)
 
     def test_answers_that_are_no_answers_of_the_service(self):
-        for name, answer in {"no HTTP": b"SSH-2.0-OpenSSH\r\n\r\n", "no JSON": http(200, b"<html>"),
-                             "no id": http(201, ["swp_1"]), "an error of a proxy": http(502, b"<html>bad gateway"),
-                             "an error that is a list": http(500, [])}.items():
+        for name, answer in {
+            "no HTTP": b"SSH-2.0-OpenSSH\r\n\r\n",
+            "no JSON": http(200, b"<html>"),
+            "no id": http(201, ["swp_1"]),
+            "an error of a proxy": http(502, b"<html>bad gateway"),
+            "an error that is a list": http(500, []),
+        }.items():
             with self.subTest(name), FakeServer(answer) as server, self.assertRaises(rpsup.BadAnswer):
                 server.client().submit(clearance_mm=[0])
             self.assertEqual(len(server.requests), 1)
@@ -105,9 +115,14 @@ class Downloads(unittest.TestCase):
         body = os.urandom(3_000_000)
         with FakeServer(http(200, body)) as server:
             sweep = server.client().sweep("swp_1")
-            written = sweep.trajectories(self.file, channels=["journal_x_mm", "journal_y_mm"], from_s=0.5, to_s=2)
-        self.assertEqual(server.requests[0][0], "GET /v1/sweeps/swp_1/trajectories?format=npz"
-                         "&channels=journal_x_mm,journal_y_mm&from=0.5&to=2 HTTP/1.1")
+            written = sweep.trajectories(
+                self.file, channels=["journal_x_mm", "journal_y_mm"], from_s=0.5, to_s=2
+            )
+        self.assertEqual(
+            server.requests[0][0],
+            "GET /v1/sweeps/swp_1/trajectories?format=npz"
+            "&channels=journal_x_mm,journal_y_mm&from=0.5&to=2 HTTP/1.1",
+        )
         with open(written, "rb") as file:
             self.assertEqual(file.read(), body)
 

@@ -15,7 +15,9 @@ NAMES = ["transport_test", "program_test", "client_test", "table_test"]
 
 def main():
     program, package = (os.path.abspath(path) for path in sys.argv[1:3])
-    os.environ.update(RPSUP_TEST_PROGRAM=program, PYTHONPATH=package, PYTHONDONTWRITEBYTECODE="1", no_proxy="127.0.0.1")
+    os.environ.update(
+        RPSUP_TEST_PROGRAM=program, PYTHONPATH=package, PYTHONDONTWRITEBYTECODE="1", no_proxy="127.0.0.1"
+    )
     sys.path.insert(0, package)
     has_pandas = importlib.util.find_spec("pandas") is not None
     names = [name for name in NAMES if has_pandas or name not in NEED_PANDAS]
