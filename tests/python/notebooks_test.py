@@ -110,7 +110,7 @@ def main():
         notebook, start = copy.deepcopy(checked_in), time.monotonic()
         for cell in notebook.cells:
             cell.get("outputs", []).clear()
-        ExecutePreprocessor(timeout=120, kernel_name="python3").preprocess(notebook, {})
+        ExecutePreprocessor(timeout=300, kernel_name="python3").preprocess(notebook, {})
         print(f"{path.name}: {time.monotonic() - start:.1f} s, {path.stat().st_size / 1000:.0f} kB")
         faults += [f"{path.name}: {fault}" for fault in faults_of(notebook.cells, checked_in.cells)]
         if path.stat().st_size > LARGEST_BYTES:
