@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
+
+#include "jobs/parameters/nearest_name.h"
 
 namespace jobs {
 namespace {
@@ -30,34 +30,6 @@ std::string describe_choice_fault(const ParameterInfo& info, const nlohmann::jso
     text.append("\"").append(info.choices[i]).append("\"");
   }
   return text;
-}
-
-/// Levenshtein's distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// Edit distance of a key from a known one; empty if too far to be a slip of the pen. A key that is right but
-/// for its unit ("clearance") is as near as can be.
-std::optional<std::size_t> key_distance(std::string_view given, std::string_view known) {
-  if (!given.empty() && known.size() > given.size() && known.starts_with(given) && known[given.size()] == '_')
-    return 0;
-  const std::size_t furthest = std::max<std::size_t>(1, known.size() / 4);
-  // The difference of the lengths is a lower bound, and costs nothing.
-  if (given.size() > known.size() + furthest || known.size() > given.size() + furthest) return std::nullopt;
-  const std::size_t distance = edit_distance(given, known);
-  return distance <= furthest ? std::optional(distance) : std::nullopt;
 }
 
 }  // namespace
@@ -93,15 +65,8 @@ nlohmann::json canonical_value(const ParameterInfo& info, const nlohmann::json& 
 std::string describe_unknown_key(std::string_view key, std::span<const std::string_view> known,
                                  std::string_view listed) {
   constexpr std::size_t kFew = 12;  // that a user reads through, if they are listed elsewhere
-  std::string_view nearest;
-  std::optional<std::size_t> least;
-  for (const std::string_view candidate : known) {
-    const auto distance = key_distance(key, candidate);
-    if (!distance || (least && *distance >= *least)) continue;
-    least = distance;
-    nearest = candidate;
-  }
-  if (least) return "unknown key; did you mean " + std::string(nearest) + "?";
+  if (const auto nearest = find_nearest_name(key, known))
+    return "unknown key; did you mean " + std::string(*nearest) + "?";
   if (known.size() > kFew && !listed.empty()) return "unknown key; all are listed at " + std::string(listed);
   std::string text = "unknown key; allowed:";
   for (std::size_t i = 0; i < known.size(); ++i) text.append(i == 0 ? " " : ", ").append(known[i]);

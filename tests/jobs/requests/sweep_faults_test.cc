@@ -37,6 +37,7 @@ TEST(SweepFaults, OfAListThatAParameterIsSayNothingOfSweeping) {
 constexpr SweepFaultCase kSweepFaults[] = {
     {"not_an_object", "[]", "", "object"},
     {"unknown_key", R"({"swep": {}})", "/swep", "did you mean sweep?"},
+    {"swapped_letters", R"({"swepe": {}})", "/swepe", "did you mean sweep?"},
     {"key_of_another_tool", R"({"axes": {}})", "/axes",
      "unknown key; allowed: name, parameters, sweep, design, cases, replicates, reuse, priority, executor"},
     {"parameter_at_the_top", R"({"clearance_mm": 1})", "/clearance_mm", "under \"parameters\""},
