@@ -10,7 +10,7 @@ namespace server {
 
 namespace {
 
-std::string joined(std::initializer_list<std::string_view> words) {
+std::string joined(std::span<const std::string_view> words) {
   std::string text;
   for (const auto word : words) text += (text.empty() ? "" : ", ") + std::string(word);
   return text.empty() ? "none" : text;
@@ -36,7 +36,7 @@ Query::Query(const Request& request, std::initializer_list<std::string_view> all
   for (const auto& [key, value] : request.query) {
     const bool known = std::find(allowed.begin(), allowed.end(), key) != allowed.end();
     if (!known && others == Others::kRefused) {
-      add_fault(key, "unknown query parameter; allowed: " + joined(allowed));
+      add_fault(key, "unknown query parameter; allowed: " + joined({allowed.begin(), allowed.size()}));
     } else if (!seen.insert(key).second) {
       add_fault(key, "given more than once");
     } else if (!known) {
@@ -101,7 +101,7 @@ std::optional<std::size_t> Query::count_in(std::string_view key, const jobs::Ran
   return std::nullopt;
 }
 
-std::optional<std::string> Query::word(std::string_view key, std::initializer_list<std::string_view> words) {
+std::optional<std::string> Query::word(std::string_view key, std::span<const std::string_view> words) {
   auto value = text(key);
   if (!value || std::find(words.begin(), words.end(), *value) != words.end()) return value;
   add_fault(key, "must be one of: " + joined(words));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -45,7 +46,7 @@ class Query {
   [[nodiscard]] std::optional<std::size_t> count_in(std::string_view key, const jobs::Range& range);
   /// The same as one of the words given; anything else is a fault.
   [[nodiscard]] std::optional<std::string> word(std::string_view key,
-                                                std::initializer_list<std::string_view> words);
+                                                std::span<const std::string_view> words);
 
   /// @throws jobs::InvalidRequest with every fault met so far, if there is any. Call it once all keys are
   /// read.

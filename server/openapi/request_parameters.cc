@@ -3,11 +3,13 @@
 
 #include <vector>
 
+#include "jobs/exports/trajectory_file.h"
 #include "jobs/motion/spectrum.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/results/page_query.h"
 #include "jobs/trajectories/decimate.h"
 #include "jobs/wear/wear.h"
+#include "server/messages/formats.h"
 
 namespace server::openapi {
 
@@ -15,7 +17,7 @@ namespace {
 
 const Json kNames{{"type", "array"}, {"minItems", 1}, {"items", kText}};
 
-Json words(std::initializer_list<const char*> allowed) { return {{"type", "string"}, {"enum", allowed}}; }
+Json format_enum(DataShape shape) { return {{"type", "string"}, {"enum", format_words(shape)}}; }
 
 Json make_metric() {
   Json names = Json::array();
@@ -58,9 +60,9 @@ std::vector<RequestParameter> make_query_parameters() {
        "filters",
        "Any column as a key: key=value, key_gt=, key_lt=, key_ge=, key_le=. A row stays if all of them hold",
        {{"type", "object"}, {"additionalProperties", kText}}},
-      {"row_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "ndjson"})},
-      {"column_format", "query", "format", "Instead of the Accept header", words({"json", "csv", "npz"})},
-      {"export_format", "query", "format", "Instead of the Accept header", words({"h5", "mat", "npz"})},
+      {"row_format", "query", "format", "Instead of the Accept header", format_enum(DataShape::kRows)},
+      {"column_format", "query", "format", "Instead of the Accept header", format_enum(DataShape::kColumns)},
+      {"export_format", "query", "format", "Instead of the Accept header", {{"type", "string"}, {"enum", jobs::kTrajectoryFileWords}}},
       {"metric", "query", "metric",
        "The metric; if left out the peak of the slider's acceleration, or the first one of a described "
        "linkage",

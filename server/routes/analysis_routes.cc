@@ -263,8 +263,7 @@ Response get_spectrum(const RequestContext& context) {
   const std::string channel = query.text("channel").value_or("slider_acceleration_m_s2");
   const jobs::TrajectoryQuery wanted{
       .channels = {channel}, .from = query.number("from"), .to = query.number("to")};
-  const auto window =
-      query.word("window", {jobs::kWindowNames[0], jobs::kWindowNames[1], jobs::kWindowNames[2]});
+  const auto window = query.word("window", jobs::kWindowNames);
   const auto run = query.check_and([&] {
     if (channel == "t_s")
       throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"/channel", "must be a channel other than t_s"}});

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/tables.h"
 
-#include <algorithm>
-#include <array>
-#include <initializer_list>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -17,48 +14,28 @@ namespace server {
 
 namespace {
 
-struct FormatInfo {
-  TableFormat format;
-  std::string_view word;        ///< of ?format=, and the end of a download's name
-  std::string_view media_type;
-};
-
-constexpr std::array<FormatInfo, 4> kFormats{{{TableFormat::kJson, "json", "application/json"},
-                                              {TableFormat::kCsv, "csv", "text/csv"},
-                                              {TableFormat::kNdjson, "ndjson", "application/x-ndjson"},
-                                              {TableFormat::kNpz, "npz", "application/x-npz"}}};
-
-const FormatInfo& info_of(TableFormat format) {
-  return *std::find_if(kFormats.begin(), kFormats.end(),
-                       [&](const FormatInfo& info) { return info.format == format; });
-}
-
-/// The one of these formats that an Accept header wants most; the first if it wants none.
-TableFormat accepted(const std::string& accept, std::initializer_list<TableFormat> formats) {
+/// The one of the formats of a shape that an Accept header wants most; the first if it wants none.
+TableFormat accepted(const std::string& accept, DataShape shape) {
+  const auto formats = formats_of(shape);
   std::vector<std::string_view> media_types;
-  for (const TableFormat format : formats) media_types.push_back(info_of(format).media_type);
-  return formats.begin()[find_accepted(accept, media_types).value_or(0)];
+  for (const FormatInfo& info : formats) media_types.push_back(info.media_type);
+  return formats[find_accepted(accept, media_types).value_or(0)].format;
 }
 
-TableFormat find_format(const Request& request, Query& query, std::initializer_list<TableFormat> formats,
-                        std::initializer_list<std::string_view> words) {
-  const auto word = query.word("format", words);
-  for (const TableFormat format : formats) {
-    if (word && info_of(format).word == *word) return format;
-  }
-  return accepted(request.accept, formats);
+TableFormat find_asked_format(const Request& request, Query& query, DataShape shape) {
+  const auto word = query.word("format", format_words(shape));
+  const auto format = word ? find_format(*word) : std::nullopt;
+  return format ? *format : accepted(request.accept, shape);
 }
 
 }  // namespace
 
 TableFormat find_row_format(const Request& request, Query& query) {
-  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNdjson},
-                     {"csv", "json", "ndjson"});
+  return find_asked_format(request, query, DataShape::kRows);
 }
 
 TableFormat find_column_format(const Request& request, Query& query) {
-  return find_format(request, query, {TableFormat::kJson, TableFormat::kCsv, TableFormat::kNpz},
-                     {"csv", "json", "npz"});
+  return find_asked_format(request, query, DataShape::kColumns);
 }
 
 std::string to_text(const jobs::ResultTable& table, TableFormat format) {

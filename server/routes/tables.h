@@ -4,12 +4,11 @@
 #include <string>
 
 #include "jobs/results/result_table.h"
+#include "server/messages/formats.h"
 #include "server/messages/message.h"
 #include "server/messages/query.h"
 
 namespace server {
-
-enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
 
 /// The format that a request for rows asks for: `?format=csv|json|ndjson` first, then the Accept header, then
 /// JSON.

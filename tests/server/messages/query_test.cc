@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/messages/query.h"
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,8 @@ namespace {
 
 using server::Query;
 using server::Request;
+
+constexpr std::array<std::string_view, 2> kWords{"csv", "json"};
 
 Request request_with(std::vector<std::pair<std::string, std::string>> query) {
   Request request;
@@ -38,7 +42,7 @@ TEST(Query, ReadsWhatIsThere) {
   EXPECT_EQ(query.number("from"), -0.15);
   EXPECT_EQ(query.number("to"), std::nullopt);
   EXPECT_EQ(query.count("limit"), 7U);
-  EXPECT_EQ(query.word("format", {"csv", "json"}), "csv");
+  EXPECT_EQ(query.word("format", kWords), "csv");
   EXPECT_EQ(faults_of(query), "none");
 }
 
@@ -49,7 +53,7 @@ TEST(Query, CollectsEveryFault) {
   EXPECT_EQ(query.number("from"), std::nullopt);
   EXPECT_EQ(query.number("to"), std::nullopt);
   EXPECT_EQ(query.count("limit"), std::nullopt);
-  EXPECT_EQ(query.word("format", {"csv", "json"}), std::nullopt);
+  EXPECT_EQ(query.word("format", kWords), std::nullopt);
   EXPECT_EQ(query.names("fields"), "");
   EXPECT_EQ(faults_of(query), "/fromm /from /to /limit /format /fields");
 }
