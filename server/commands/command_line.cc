@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 
 #include "jobs/base/program_info.h"
 #include "jobs/requests/parameter_help.h"
+#include "server/commands/arguments.h"
 #include "server/commands/check_cluster.h"
 #include "server/commands/cluster_options.h"
 #include "server/commands/command.h"
@@ -26,15 +28,17 @@
 #include "server/commands/numerics.h"
 #include "server/commands/option_table.h"
 #include "server/commands/output_check.h"
+#include "server/commands/output_format.h"
 #include "server/commands/paper.h"
 #include "server/commands/remote_command_line.h"
+#include "server/commands/request_command_line.h"
 #include "server/commands/run_task.h"
 #include "server/commands/serve.h"
 #include "server/commands/service_token.h"
 #include "server/commands/simulate.h"
-#include "server/commands/study.h"
-#include "server/commands/sweep.h"
+#include "server/commands/store_options.h"
 #include "server/commands/validate.h"
+#include "server/messages/terminal_text.h"
 
 namespace server::commands {
 
@@ -45,9 +49,10 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   command->add_option("file", options.file, "JSON file with the parameters; - reads standard input")
       ->required()
       ->type_name("FILE");
-  command->add_option("--trajectory", options.trajectory, "Trajectory file: .csv, .json or .npz")
+  command->add_option("--trajectory", options.trajectory, "Trajectory file: .json, .csv or .npz")
       ->type_name("FILE")
       ->envname("RPSUP_TRAJECTORY");
+  add_format_option(*command, options.format, DataShape::kColumns);
   command
       ->add_option("--channels", options.channels,
                    "Channels of the trajectory, separated by commas; all if left out")
@@ -61,50 +66,6 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
       ->type_name("FILE.svg")
       ->envname("RPSUP_PLOT");
   command->footer("Parameters, each with its default and what is allowed:\n" + jobs::parameter_help());
-  return command;
-}
-
-void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Jobs computed at a time")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str()
-      ->envname("RPSUP_THREADS");
-}
-
-/// Names by which SQLite keeps nothing, or takes the rest for options.
-std::string describe_store_name_fault(const std::string& name) {
-  if (name.empty()) return "the store has no name: a file is needed";
-  if (name == ":memory:") return ":memory: would keep nothing: a store is a file (./:memory: is one)";
-  if (name.starts_with("file:"))
-    return "file: URIs are not taken: give the path alone (./" + name + " is a file)";
-  return "";
-}
-
-void add_store_options(CLI::App& command, std::string& store, int& threads) {
-  command.add_option("--db", store, "SQLite file of sweeps and results; created if missing")
-      ->required()
-      ->check(describe_store_name_fault)
-      ->type_name("FILE")
-      ->envname("RPSUP_DB");
-  add_threads_option(command, threads);
-}
-
-/// Command that computes a request without a server. @param what  "sweep", say
-CLI::App* add_request_command(CLI::App& app, const char* name, const char* help, const std::string& what,
-                              SweepOptions& options) {
-  CLI::App* const command = app.add_subcommand(name, help);
-  command->add_option("file", options.file,
-                      "JSON file with the " + what + " request; - reads standard input")
-      ->required()
-      ->type_name("FILE");
-  add_store_options(*command, options.store, options.threads);
-  command
-      ->add_option(
-          "--results", options.results,
-          "Results file: .json, .ndjson (a row a line), or else CSV; - writes CSV to standard output")
-      ->type_name("FILE")
-      ->capture_default_str()
-      ->envname("RPSUP_RESULTS");
   return command;
 }
 
@@ -136,7 +97,9 @@ void add_limit_options(CLI::App& command, ServeOptions& options) {
 CLI::App* add_serve(CLI::App& app, ServeOptions& options) {
   CLI::App* const command =
       app.add_subcommand("serve", "Run the service with its REST interface and its page");
-  add_store_options(*command, options.store, options.threads);
+  add_store_option(*command, options.store, "SQLite file of sweeps and results; created if missing")
+      ->required();
+  add_threads_option(*command, options.threads);
   command
       ->add_option("--host", options.host, "IP address to listen on; all but loopback addresses need a token")
       ->capture_default_str()
@@ -209,11 +172,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       ->required()
       ->check(describe_store_name_fault)
       ->type_name("FILE");
-  command->add_option("--db", options.store, "SQLite file of sweeps and results")
-      ->required()
-      ->check(describe_store_name_fault)
-      ->type_name("FILE")
-      ->envname("RPSUP_DB");
+  add_store_option(*command, options.store, "SQLite file of sweeps and results")->required();
   return command;
 }
 
@@ -263,21 +222,6 @@ int print_completion(const CLI::App& app, const std::string& shell) {
   return kDone;
 }
 
-/// Arguments in reverse order, as the parser takes them. The parser would take any word after --plot for its
-/// value, such as the file with the parameters: here only the name of a picture is one.
-std::vector<std::string> read_arguments(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
-    if (*argument != "--plot") continue;
-    const auto next = argument + 1;
-    const bool named = next != arguments.end() && (*next == "-" || next->ends_with(".svg"));
-    *argument = "--plot=" + (named ? *next : "-");
-    if (named) arguments.erase(next);
-  }
-  std::ranges::reverse(arguments);
-  return arguments;
-}
-
 /// Hides the value of --token in the list of processes, which every user can read.
 void hide_token(int argc, char** argv) {
   constexpr std::string_view kOption = "--token";
@@ -302,6 +246,17 @@ int print_man_page(const CLI::App& app) {
   return kDone;
 }
 
+/// Says which option a command does not have. False if something else was not expected.
+bool tell_unknown_option(const CLI::App& app) {
+  for (const std::string& word : app.remaining(true)) {
+    if (!word.starts_with("--")) continue;
+    std::cerr << "rpsup: " << terminal_text(describe_unknown_option(app, word)) << '\n';
+    return true;
+  }
+  return false;
+}
+
+/// @param remote  commands that speak to a service
 void describe(CLI::App& app, const std::vector<Command>& remote) {
   app.set_version_flag("--version", "rpsup " + std::string(jobs::kProgramVersionText),
                        "Print the version and exit");
@@ -338,9 +293,6 @@ int run_command_line(int argc, char** argv) {
   CLI::App app{"Parameter studies of the dynamics of the RPSUP spatial linkage", "rpsup"};
   app.fallthrough();  // before the commands, which take it over
   SimulateOptions simulate_options;
-  SweepOptions sweep_options;
-  SweepOptions optimise_options;
-  SweepOptions fit_options;
   ServeOptions serve_options;
   PaperOptions paper_options;
   ExportOptions export_options;
@@ -349,21 +301,9 @@ int run_command_line(int argc, char** argv) {
   std::string numerics = "native";
   std::string shell;
   std::vector<Command> commands = add_remote_commands(app);
+  std::ranges::move(add_request_commands(app, argv), std::back_inserter(commands));
   describe(app, commands);
   commands.push_back({add_simulate(app, simulate_options), [&] { return simulate(simulate_options); }});
-  commands.push_back({add_request_command(app, "sweep", "Compute a sweep without a server", "sweep",
-                                          sweep_options),
-                      [&] { return sweep(sweep_options); }});
-  commands.push_back({add_request_command(app, "optimise",
-                                          "Look for the parameters of the least or largest metrics, without "
-                                          "a server",
-                                          "optimisation", optimise_options),
-                      [&] { return optimise(optimise_options); }});
-  commands.push_back({add_request_command(app, "fit",
-                                          "Look for the parameters with which jobs give measured signals, "
-                                          "without a server",
-                                          "fit", fit_options),
-                      [&] { return fit(fit_options); }});
   add_validate(app);
   commands.push_back({add_paper(app, paper_options), [&] { return hold_against_paper(paper_options); }});
   commands.push_back({add_serve(app, serve_options), [&] { return serve(serve_options); }});
@@ -373,13 +313,17 @@ int run_command_line(int argc, char** argv) {
   commands.push_back({add_completion(app, shell), [&] { return print_completion(app, shell); }});
   commands.push_back({app.add_subcommand("man", "Print the manual page: rpsup man | man -l -"),
                       [&] { return print_man_page(app); }});
-  for (const char* const name : {"simulate", "sweep", "optimise", "fit", "serve", "check-cluster"})
+  for (const char* const name : {"simulate", "serve", "check-cluster"})
     add_numerics_option(*app.get_subcommand(name), numerics);
   try {
-    std::vector<std::string> arguments = read_arguments(argc, argv);
+    std::vector<std::string> arguments = arrange_arguments(app, {argv + 1, argv + argc});
     hide_token(argc, argv);
+    std::ranges::reverse(arguments);  // as the parser takes them
     app.parse(std::move(arguments));
+  } catch (const BadInput& error) {
+    return run_guarded([&]() -> int { throw error; });
   } catch (const CLI::ParseError& error) {
+    if (tell_unknown_option(app)) return kBadInput;
     const bool is_help = app.exit(error) == 0;
     return run_guarded([&]() -> int {
       if (is_help) check_standard_output();
@@ -389,6 +333,8 @@ int run_command_line(int argc, char** argv) {
   const auto parsed =
       std::ranges::find_if(commands, [](const Command& command) { return command.line->parsed(); });
   return run_guarded([&] {
+    if (parsed == commands.end())
+      throw BadInput("validate must be the first word: rpsup-validate reads the others");
     check_outputs(app, *parsed->line);
     check_processor();
     enter_numerics(numerics, argv);

@@ -10,6 +10,9 @@ class App;
 
 namespace server::commands {
 
+/// Type name of an argument that is the id of a resource.
+inline constexpr const char* kIdType = "ID";
+
 /// An option or an argument of a command, as it was declared to the parser, which prints --help from the
 /// same.
 struct OptionEntry {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/analysis/quantities.h"
+#include "server/commands/terminal.h"
 
 namespace server::commands {
 
@@ -24,10 +25,6 @@ struct AccelerationBand {
                                                       std::size_t columns);
 
 enum class Characters { kBraille, kAscii };
-
-struct TerminalSize {
-  std::size_t columns = 80, rows = 24;
-};
 
 /// How many columns draw_for_terminal() can show in such a terminal.
 [[nodiscard]] std::size_t plot_columns(const TerminalSize& size);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/remote_command_line.h"
 
+#include <array>
 #include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "server/commands/option_table.h"
+#include "server/commands/output_format.h"
 #include "server/commands/remote_commands.h"
 #include "server/commands/service_token.h"
 
 namespace server::commands {
-
-namespace {
 
 void add_remote_options(CLI::App& command, RemoteOptions& options) {
   command.add_option("--url", options.url, "URL of the service")
@@ -31,6 +33,8 @@ void add_remote_options(CLI::App& command, RemoteOptions& options) {
       ->envname("RPSUP_TOKEN");
 }
 
+namespace {
+
 /// A command with the options that all of them have.
 template <typename Options>
 CLI::App* add_command(CLI::App& app, const char* name, const char* help, Options& options) {
@@ -47,13 +51,18 @@ Command make_remote_command(CLI::App* line, std::shared_ptr<Options> options, in
 
 Command add_submit(CLI::App& app) {
   const auto options = std::make_shared<SubmitOptions>();
-  CLI::App* const command =
-      add_command(app, "submit", "Submit a sweep to a running service and print its id", *options);
-  command->add_option("file", options->file, "JSON file with the sweep request; - reads standard input")
+  CLI::App* const command = add_command(
+      app, "submit", "Submit a sweep, a job or a study to a running service and print its id", *options);
+  command->add_option("file", options->file, "JSON file with the request; - reads standard input")
       ->required()
       ->type_name("FILE");
-  command->add_flag("--job", options->job,
-                    "Job instead of a sweep: the file holds the parameters of one job");
+  std::vector<std::string> words;
+  for (const Kind kind : kRunningKinds) words.emplace_back(info_of(kind).word);
+  command->add_option("--kind", options->kind, "Kind of the request")
+      ->check(CLI::IsMember(words))
+      ->capture_default_str();
+  command->add_flag("--job", options->job, "The same as --kind job: the file holds the parameters of one job")
+      ->excludes("--kind");
   command->add_flag("--watch", options->watch, "Wait for the end, as rpsup watch does");
   return make_remote_command(command, options, submit);
 }
@@ -80,51 +89,148 @@ Command add_measure(CLI::App& app) {
   return make_remote_command(command, options, measure);
 }
 
+/// The id of a resource, with the kinds that the command takes.
+CLI::Option* add_id_option(CLI::App& command, std::string& id) {
+  return command.add_option("id", id, "Id of a " + list_kinds(kinds_of_command(command.get_name())))
+      ->type_name(kIdType);
+}
+
+CLI::Option* add_output_option(CLI::App& command, std::string& output, const char* help) {
+  return command.add_option("--output", output, help)
+      ->type_name("FILE")
+      ->capture_default_str()
+      ->envname("RPSUP_OUTPUT");
+}
+
 Command add_status(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
   CLI::App* const command = add_command(
-      app, "status", "Print the progress of a sweep or a job, or list the newest sweeps", *options);
-  command->add_option("id", options->id, "Id of a sweep or a job; if left out, the newest sweeps are listed");
+      app, "status", "Print the state of a sweep, a job, a study or a measurement, or list the newest sweeps",
+      *options);
+  add_id_option(*command, options->id);
   command->add_flag("--json", options->json, "JSON of the service instead of text");
+  std::vector<std::string> names;
+  for (const IdCommand& each : kIdCommands) names.emplace_back(each.name);
+  command
+      ->add_option("--ids", options->ids_for,
+                   "Ids that a command takes, one a line, instead of a state; waits for 1 s at most, for the "
+                   "completion of shells")
+      ->check(CLI::IsMember(names))
+      ->type_name("COMMAND");
   return make_remote_command(command, options, status);
 }
 
 Command add_watch(CLI::App& app) {
   const auto options = std::make_shared<WatchOptions>();
-  CLI::App* const command =
-      add_command(app, "watch", "Show the progress of a sweep or a job until it has ended", *options);
-  command->add_option("id", options->id, "Id of a sweep or a job")->required();
+  CLI::App* const command = add_command(
+      app, "watch", "Show the progress of a sweep, a job or a study until it has ended", *options);
+  add_id_option(*command, options->id)->required();
   return make_remote_command(command, options, watch);
 }
 
 Command add_results(CLI::App& app) {
   const auto options = std::make_shared<ResultsOptions>();
-  CLI::App* const command =
-      add_command(app, "results", "Print the table of results of a sweep, also while it runs", *options);
-  command->add_option("id", options->sweep, "Id of a sweep")->required();
-  command->add_option("--format", options->format, "Format of the table")
-      ->check(CLI::IsMember({"csv", "json", "ndjson"}))
-      ->capture_default_str()
-      ->envname("RPSUP_FORMAT");
-  command->add_option("--output", options->output, "Output file; - writes standard output")
-      ->type_name("FILE")
-      ->capture_default_str()
-      ->envname("RPSUP_OUTPUT");
+  CLI::App* const command = add_command(
+      app, "results", "Print the table of results of a sweep or a study, also while it runs", *options);
+  add_id_option(*command, options->id)->required();
+  add_format_option(*command, options->format, DataShape::kRows);
+  add_output_option(*command, options->output,
+                    "Output file: .json, .csv or .ndjson; - writes standard output");
+  command->add_option("--fields", options->fields,
+                      "Columns in this order, separated by commas; all if left out");
+  command
+      ->add_option(
+          "--where", options->where,
+          "Condition on the rows: a column, one of = < > <= >= and a value; may be repeated, and all "
+          "must hold")
+      ->type_name("COLUMN=VALUE")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--order-by", options->order_by,
+      "Columns by which the rows are ordered, separated by commas; --order-by=-COLUMN puts the "
+      "largest first");
+  command->add_option("--limit", options->limit, "Most rows; all if left out")->type_name("UINT");
+  command->add_option("--metric", options->metric, "Metric of the statistics of replicates, of a sweep");
   return make_remote_command(command, options, results);
 }
 
-Command add_cancel(CLI::App& app) {
-  const auto options = std::make_shared<CancelOptions>();
-  CLI::App* const command = add_command(app, "cancel", "Cancel sweeps or jobs that have not ended", *options);
-  command->add_option("id", options->ids, "Ids of sweeps or jobs")->required();
-  return make_remote_command(command, options, cancel);
+Command add_trajectory(CLI::App& app) {
+  const auto options = std::make_shared<TrajectoryOptions>();
+  CLI::App* const command =
+      add_command(app, "trajectory", "Print the channels of a job or a measurement over time", *options);
+  add_id_option(*command, options->id)->required();
+  command->add_option("--channels", options->channels, "Channels, separated by commas; all if left out")
+      ->envname("RPSUP_CHANNELS");
+  command->add_option("--from", options->from, "Begin in s")->type_name("FLOAT");
+  command->add_option("--to", options->to, "End in s")->type_name("FLOAT");
+  command
+      ->add_option(
+          "--points", options->points,
+          "Most samples: each stretch of time keeps those at which a channel is smallest and largest")
+      ->type_name("UINT");
+  command->add_option("--run", options->run, "Run of a measurement; the first if left out")
+      ->type_name("UINT");
+  add_format_option(*command, options->format, DataShape::kColumns);
+  add_output_option(*command, options->output, "Output file: .json, .csv or .npz; - writes standard output");
+  return make_remote_command(command, options, trajectory);
+}
+
+Command add_report(CLI::App& app) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* const command = add_command(
+      app, "report", "Save the report of a sweep, an HTML page that needs no other file", *options);
+  add_id_option(*command, options->id)->required();
+  add_output_option(*command, options->output, "Output file: .html; - writes standard output");
+  return make_remote_command(command, options, save_report);
+}
+
+Command add_extend(CLI::App& app) {
+  const auto options = std::make_shared<ExtendOptions>();
+  CLI::App* const command =
+      add_command(app, "extend", "Add values to the axes of a sweep, or cases; only new jobs run", *options);
+  add_id_option(*command, options->id)->required();
+  command->add_option("file", options->file, "JSON file with the extension; - reads standard input")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--watch", options->watch, "Wait for the end, as rpsup watch does");
+  return make_remote_command(command, options, extend);
+}
+
+struct ChangeCommand {
+  const char* name;
+  const char* help;
+  int (*run)(const ChangeOptions&);
+};
+
+constexpr std::array<ChangeCommand, 5> kChangeCommands{
+    {{"open", "Print the links of pages of the dashboard", open},
+     {"cancel", "Cancel sweeps, jobs or studies that have not ended", cancel},
+     {"retry", "Queue the failed and cancelled jobs of sweeps or studies again", retry},
+     {"move", "Give the queued jobs of sweeps to another executor", move},
+     {"delete", "Delete sweeps, jobs, studies or measurements, with the results that nothing else shares",
+      erase}}};
+
+Command add_change(CLI::App& app, const ChangeCommand& info) {
+  const auto options = std::make_shared<ChangeOptions>();
+  CLI::App* const command = add_command(app, info.name, info.help, *options);
+  command->add_option("id", options->ids, "Ids, each of a " + list_kinds(kinds_of_command(info.name)))
+      ->required()
+      ->type_name(kIdType);
+  if (info.run == move) {
+    command->add_option("--executor", options->executor, "Executor that computes the jobs from now on")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->required();
+  }
+  return make_remote_command(command, options, info.run);
 }
 
 }  // namespace
 
 std::vector<Command> add_remote_commands(CLI::App& app) {
-  return {add_submit(app), add_measure(app), add_status(app),
-          add_watch(app),  add_results(app), add_cancel(app)};
+  std::vector<Command> commands{add_submit(app),  add_measure(app),    add_status(app), add_watch(app),
+                                add_results(app), add_trajectory(app), add_report(app), add_extend(app)};
+  for (const ChangeCommand& info : kChangeCommands) commands.push_back(add_change(app, info));
+  return commands;
 }
 
 }  // namespace server::commands

@@ -17,7 +17,12 @@ struct Command {
   std::function<int()> run;  ///< returns an exit code
 };
 
-/// The commands that speak to a running service: submit, measure, status, watch, results, cancel.
+struct RemoteOptions;
+
+/// Adds --url, --token-file and --token.
+void add_remote_options(CLI::App& command, RemoteOptions& options);
+
+/// The commands that speak to a running service: submit, measure, and those of kIdCommands.
 [[nodiscard]] std::vector<Command> add_remote_commands(CLI::App& app);
 
 }  // namespace server::commands

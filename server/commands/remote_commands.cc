@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/remote_commands.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <utility>
+#include <functional>
+#include <string_view>
 
 #include "server/commands/command.h"
 #include "server/messages/terminal_text.h"
@@ -10,8 +12,6 @@
 namespace server::commands {
 
 namespace {
-
-constexpr const char* kJsonType = "application/json";
 
 std::string media_type_of(const std::string& file) {
   if (file.ends_with(".json")) return kJsonType;
@@ -29,13 +29,12 @@ std::string column_and_channel(const std::string& option) {
 }
 
 /// Query of a measurement. JSON says the same itself. @throws BadInput
-std::vector<std::pair<std::string, std::string>> measurement_query(const MeasureOptions& options,
-                                                                   const std::string& media_type) {
+QueryItems measurement_query(const MeasureOptions& options, const std::string& media_type) {
   if (media_type == kJsonType) {
     if (options.name.empty() && options.time.empty() && options.channels.empty()) return {};
     throw BadInput("--name, --time and --channel are for CSV and NPZ; JSON holds them itself");
   }
-  std::vector<std::pair<std::string, std::string>> query;
+  QueryItems query;
   const std::string file = options.file == "-" ? "" : std::filesystem::path(options.file).filename().string();
   query.emplace_back("name", options.name.empty() ? file : options.name);
   if (!options.time.empty()) query.emplace_back("time", options.time);
@@ -46,43 +45,76 @@ std::vector<std::pair<std::string, std::string>> measurement_query(const Measure
   return query;
 }
 
+/// Does something with each id, and prints a line for each. Ids are checked before the first one is touched.
+/// @param change  of a kind and an id, returns the line
+int for_each_id(std::string_view command, const ChangeOptions& options,
+                const std::function<std::string(Kind, const std::string&)>& change) {
+  for (const std::string& id : options.ids) static_cast<void>(checked_kind(command, id));
+  for (const std::string& id : options.ids) write_text("-", change(checked_kind(command, id), id) + "\n");
+  return kDone;
+}
+
+int change_each(std::string_view action, const ChangeOptions& options, const RemoteService::Json& body) {
+  RemoteService service(options.remote);
+  return for_each_id(action, options, [&](Kind kind, const std::string& id) {
+    const auto resource = service.change(kind, id, action, body);
+    return id + " " + terminal_text(resource.at("state").get<std::string>());
+  });
+}
+
 }  // namespace
 
 int submit(const SubmitOptions& options) {
   const auto request = read_json(options.file);
-  RemoteService service(options.remote);
-  const auto resource =
-      service.submit(options.job ? RemoteService::Kind::kJob : RemoteService::Kind::kSweep, request);
-  const auto id = resource.at("id").get<std::string>();
+  const auto* const info =
+      std::ranges::find(kKinds, std::string_view(options.job ? "job" : options.kind), &KindInfo::word);
+  const auto kind = static_cast<Kind>(info - kKinds.begin());
+  const auto id = RemoteService(options.remote).submit(kind, request).at("id").get<std::string>();
   write_text("-", terminal_text(id) + "\n");
   return options.watch ? watch({.remote = options.remote, .id = id}) : kDone;
 }
 
-int measure(const MeasureOptions& options) {
+std::string store_measurement(RemoteService& service, const MeasureOptions& options, const std::string& key) {
   const std::string media_type = media_type_of(options.file);
   const auto query = measurement_query(options, media_type);
-  const auto resource =
-      RemoteService(options.remote).submit_measurement(read_text(options.file), media_type, query);
-  write_text("-", terminal_text(resource.at("id").get<std::string>()) + "\n");
-  return kDone;
+  return service.submit_measurement(read_text(options.file), media_type, query, key).at("id");
 }
 
-int results(const ResultsOptions& options) {
-  if (options.output != "-") check_output_file("--output", options.output);
-  const std::string media_type = options.format == "csv"      ? "text/csv"
-                                 : options.format == "ndjson" ? "application/x-ndjson"
-                                                              : "application/json";
-  write_text(options.output, RemoteService(options.remote).results(options.sweep, media_type));
-  return kDone;
-}
-
-int cancel(const CancelOptions& options) {
+int measure(const MeasureOptions& options) {
   RemoteService service(options.remote);
-  for (const std::string& id : options.ids) {
-    const auto resource = service.cancel(id).json;
-    write_text("-", id + " " + terminal_text(resource.at("state").get<std::string>()) + "\n");
-  }
+  write_text("-", terminal_text(store_measurement(service, options, "")) + "\n");
   return kDone;
+}
+
+int cancel(const ChangeOptions& options) { return change_each("cancel", options, nullptr); }
+int retry(const ChangeOptions& options) { return change_each("retry", options, nullptr); }
+
+int move(const ChangeOptions& options) {
+  return change_each("move", options, {{"executor", options.executor}});
+}
+
+int erase(const ChangeOptions& options) {
+  RemoteService service(options.remote);
+  return for_each_id("delete", options, [&](Kind kind, const std::string& id) {
+    service.erase(kind, id);
+    return id + " deleted";
+  });
+}
+
+int open(const ChangeOptions& options) {
+  RemoteService service(options.remote);
+  return for_each_id("open", options, [&](Kind kind, const std::string& id) {
+    static_cast<void>(service.find(kind, id));
+    return service.page_of(kind, id);
+  });
+}
+
+int extend(const ExtendOptions& options) {
+  const Kind kind = checked_kind("extend", options.id);
+  const auto extension = read_json(options.file);
+  const auto sweep = RemoteService(options.remote).change(kind, options.id, "extend", extension);
+  write_text("-", options.id + " " + terminal_text(sweep.at("state").get<std::string>()) + "\n");
+  return options.watch ? watch({.remote = options.remote, .id = options.id}) : kDone;
 }
 
 }  // namespace server::commands

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,10 @@ namespace server::commands {
 
 struct SubmitOptions {
   RemoteOptions remote;
-  std::string file;    ///< request; "-": standard input
-  bool job = false;    ///< the request is one parameter set, not a sweep
-  bool watch = false;  ///< wait for the end
+  std::string file;            ///< request; "-": standard input
+  std::string kind = "sweep";  ///< word of a Kind
+  bool job = false;            ///< the request is of a job
+  bool watch = false;          ///< wait for the end
 };
 
 /// Submits a request and prints the id of what came of it on a line of standard output.
@@ -32,13 +34,18 @@ struct MeasureOptions {
 /// Stores a file of measured signals and prints the id of the measurement.
 int measure(const MeasureOptions& options);
 
+/// The same without printing. @param key  Idempotency-Key; empty: none @returns the id
+[[nodiscard]] std::string store_measurement(RemoteService& service, const MeasureOptions& options,
+                                            const std::string& key);
+
 struct StatusOptions {
   RemoteOptions remote;
-  std::string id;     ///< of a sweep or a job; empty: the newest sweeps
-  bool json = false;  ///< the resource as the service gives it
+  std::string id;         ///< empty: the newest sweeps
+  bool json = false;      ///< the resource as the service gives it
+  std::string ids_for{};  ///< command whose ids are listed instead; empty: none
 };
 
-/// Prints how far sweeps or jobs are. kJobFailed if the sweep or job that was asked for has failed.
+/// Prints how far sweeps, jobs and studies are. kJobFailed if the one that was asked for has failed.
 int status(const StatusOptions& options);
 
 struct WatchOptions {
@@ -46,28 +53,76 @@ struct WatchOptions {
   std::string id;
 };
 
-/// Shows on standard error how far a sweep or a job is, until it has ended: a bar on a terminal, lines
-/// elsewhere. A service that does not answer for a while (it is started again, say) is asked again.
+/// Shows on standard error how far a sweep, a job or a study is, until it has ended: a bar and the running
+/// jobs on a terminal, lines elsewhere. A service that does not answer for a while (it is started again, say)
+/// is asked again.
 /// @returns kJobFailed unless every job has succeeded; kInterrupted if the user ended the watching, not the
 /// sweep
 int watch(const WatchOptions& options);
 
+/// The same of a resource. @returns it as it ended; empty if the user ended the watching
+std::optional<RemoteService::Json> follow(RemoteService& service, Kind kind, const std::string& id);
+
 struct ResultsOptions {
   RemoteOptions remote;
-  std::string sweep;
-  std::string format = "csv";  ///< "csv", "json" or "ndjson"
-  std::string output = "-";    ///< file; "-": standard output
+  std::string id;
+  std::string format{};            ///< empty: that of the output's suffix
+  std::string output = "-";        ///< file; "-": standard output
+  std::string fields{};            ///< columns, with commas between; empty: all
+  std::vector<std::string> where;  ///< conditions, "clearance_mm>0.1"
+  std::string order_by{};          ///< columns, with commas between
+  std::string limit{};             ///< rows; empty: all
+  std::string metric{};            ///< of the statistics of replicates
 };
 
-/// Writes the table of results of a sweep, as far as it has come.
+/// Writes the table of results of a sweep or a study, as far as it has come.
 int results(const ResultsOptions& options);
 
-struct CancelOptions {
+struct TrajectoryOptions {
   RemoteOptions remote;
-  std::vector<std::string> ids;  ///< of sweeps or jobs
+  std::string id;
+  std::string format{};      ///< empty: that of the output's suffix
+  std::string output = "-";  ///< file; "-": standard output
+  std::string channels{};    ///< with commas between; empty: all
+  std::string from{}, to{};  ///< [s]
+  std::string points{};      ///< most samples; empty: all
+  std::string run{};         ///< of a measurement
 };
 
-/// Cancels what has not ended, one after the other, and prints what became of each.
-int cancel(const CancelOptions& options);
+/// Writes the channels of a job or a measurement over time.
+int trajectory(const TrajectoryOptions& options);
+
+struct ReportOptions {
+  RemoteOptions remote;
+  std::string id;
+  std::string output = "-";  ///< file; "-": standard output
+};
+
+/// Writes the report of a sweep, an HTML page.
+int save_report(const ReportOptions& options);
+
+struct ChangeOptions {
+  RemoteOptions remote;
+  std::vector<std::string> ids;
+  std::string executor{};  ///< of move
+};
+
+// Each changes one after the other, and prints what became of each.
+int cancel(const ChangeOptions& options);
+int retry(const ChangeOptions& options);
+int move(const ChangeOptions& options);
+int erase(const ChangeOptions& options);
+/// Prints the links of pages of the dashboard.
+int open(const ChangeOptions& options);
+
+struct ExtendOptions {
+  RemoteOptions remote;
+  std::string id;
+  std::string file;    ///< extension; "-": standard input
+  bool watch = false;  ///< wait for the end
+};
+
+/// Adds values or cases to a sweep.
+int extend(const ExtendOptions& options);
 
 }  // namespace server::commands

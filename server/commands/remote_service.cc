@@ -6,12 +6,10 @@
 #include <stdexcept>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "jobs/base/errors.h"
 #include "server/commands/command.h"
 #include "server/commands/service_token.h"
-#include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
 
 namespace server::commands {
@@ -22,9 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kUnauthorized = 401;
 constexpr int kForbidden = 403;
-constexpr int kNotFound = 404;
 constexpr int kTooManyRequests = 429;
-
 ServiceUrl checked_url(const std::string& url) {
   const auto parsed = parse_service_url(url);
   if (!parsed)
@@ -65,10 +61,6 @@ std::vector<jobs::Fault> faults_of(const Json& problem) {
   return faults;
 }
 
-const char* path_of(RemoteService::Kind kind) {
-  return kind == RemoteService::Kind::kSweep ? "/v1/sweeps" : "/v1/jobs";
-}
-
 /// Value of a query in which each byte but letters and digits is encoded (RFC 3986, section 2.1).
 std::string query_encoded(const std::string& value) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -80,10 +72,17 @@ std::string query_encoded(const std::string& value) {
   return text;
 }
 
-/// The id, which is then safe as a segment of a path.
-const std::string& checked_id(const std::string& id) {
-  if (!is_id(id)) throw BadInput("\"" + id + "\" is no id of a sweep or a job");
-  return id;
+std::string path_of(Kind kind, const std::string& id) {
+  return std::string(info_of(kind).path) + "/" + id;
+}
+
+std::string with_query(std::string path, const QueryItems& query) {
+  const char* separator = "?";
+  for (const auto& [key, value] : query) {
+    path.append(separator).append(query_encoded(key)).append("=").append(query_encoded(value));
+    separator = "&";
+  }
+  return path;
 }
 
 }  // namespace
@@ -92,40 +91,45 @@ RemoteService::RemoteService(const RemoteOptions& options)
     : url_(options.url), client_(checked_url(options.url), checked_token(options)) {}
 
 Json RemoteService::submit(Kind kind, const Json& request) {
-  return read(client_.post(path_of(kind), to_text(request)));
+  return read(client_.post(std::string(info_of(kind).path), to_text(request)));
 }
 
 Json RemoteService::submit_measurement(const std::string& text, const std::string& media_type,
-                                       const std::vector<std::pair<std::string, std::string>>& query) {
-  std::string path = "/v1/measurements";
-  for (const auto& [key, value] : query)
-    path += (path.find('?') == std::string::npos ? "?" : "&") + key + "=" + query_encoded(value);
-  return read(client_.post(path, text, media_type));
+                                       const QueryItems& query, const std::string& key) {
+  const std::string path(info_of(Kind::kMeasurement).path);
+  return read(client_.post(with_query(path, query), text, media_type, key));
 }
 
-Json RemoteService::list_sweeps() { return read(client_.get("/v1/sweeps", "application/json")); }
-
-RemoteService::Resource RemoteService::find(const std::string& id) {
-  for (const Kind kind : {Kind::kSweep, Kind::kJob}) {
-    const auto answer = client_.get(path_of(kind) + ("/" + checked_id(id)), "application/json");
-    if (answer.status != kNotFound || !find_problem(answer)) return {kind, read(answer)};
-  }
-  throw BadInput("there is no sweep and no job " + id + " at " + url_);
+Json RemoteService::list(Kind kind, const QueryItems& query) {
+  return read(client_.get(with_query(std::string(info_of(kind).path), query), kJsonType));
 }
 
-RemoteService::Resource RemoteService::cancel(const std::string& id) {
-  const Kind kind = find(id).kind;
-  return {kind, read(client_.post(path_of(kind) + ("/" + id) + "/cancel", ""))};
+Json RemoteService::find(Kind kind, const std::string& id) {
+  return read(client_.get(path_of(kind, id), kJsonType));
 }
 
-std::string RemoteService::results(const std::string& sweep_id, const std::string& media_type) {
-  auto answer = client_.get("/v1/sweeps/" + checked_id(sweep_id) + "/results", media_type);
+Json RemoteService::change(Kind kind, const std::string& id, std::string_view action, const Json& body) {
+  const std::string path = path_of(kind, id) + "/" + std::string(action);
+  return read(client_.post(path, body.is_null() ? "" : to_text(body)));
+}
+
+void RemoteService::erase(Kind kind, const std::string& id) { check(client_.erase(path_of(kind, id))); }
+
+std::string RemoteService::get_part(Kind kind, const std::string& id, std::string_view part,
+                                    const std::string& media_type, const QueryItems& query) {
+  const std::string path = path_of(kind, id) + "/" + std::string(part);
+  auto answer = client_.get(with_query(path, query), media_type);
   check(answer);
   if (!answer.content_type.starts_with(media_type)) {
     throw std::runtime_error(url_ + " answers, but not as this service does: no " + media_type +
                              ". Is --url right?");
   }
   return std::move(answer.body);
+}
+
+std::string RemoteService::page_of(Kind kind, const std::string& id) const {
+  const ServiceUrl url = checked_url(url_);
+  return url.origin + url.prefix + "/#/" + std::string(info_of(kind).page) + "/" + id;
 }
 
 Json RemoteService::read(const HttpClient::Answer& answer) const {

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "server/commands/remote_kinds.h"
 #include "server/http/http_client.h"
 
 namespace server::commands {
+
+inline constexpr const char* kJsonType = "application/json";  ///< media type
 
 /// Address of the service that a command talks to, and token.
 struct RemoteOptions {
@@ -18,37 +23,44 @@ struct RemoteOptions {
   std::string token_file{};  ///< file of the token, before `token`; empty: none
 };
 
+/// Keys and values of a query string, in their order.
+using QueryItems = std::vector<std::pair<std::string, std::string>>;
+
 /// A service that runs elsewhere, as the commands use it. Its refusals become what run_guarded() tells:
 /// jobs::InvalidRequest where it names faults, BadInput for what else is the user's to mend,
 /// std::runtime_error for what is the service's or the network's.
 class RemoteService {
  public:
-  enum class Kind { kSweep, kJob };
-
-  struct Resource {
-    Kind kind = Kind::kSweep;
-    nlohmann::ordered_json json;
-  };
+  using Json = nlohmann::ordered_json;
 
   /// @throws BadInput for a URL or a token that cannot be used
   explicit RemoteService(const RemoteOptions& options);
 
-  [[nodiscard]] nlohmann::ordered_json submit(Kind kind, const nlohmann::ordered_json& request);
-  /// Stores a measurement. @param query  keys and values @param media_type  of the text
-  [[nodiscard]] nlohmann::ordered_json submit_measurement(
-      const std::string& text, const std::string& media_type,
-      const std::vector<std::pair<std::string, std::string>>& query);
-  /// The newest sweeps, {"items": [...], "next_cursor": ...}.
-  [[nodiscard]] nlohmann::ordered_json list_sweeps();
-  /// The sweep or job of that id. @throws BadInput if there is neither
-  [[nodiscard]] Resource find(const std::string& id);
-  [[nodiscard]] Resource cancel(const std::string& id);
-  /// The table of results, byte for byte as the service gives it. @param media_type  text/csv,
-  /// application/json or application/x-ndjson
-  [[nodiscard]] std::string results(const std::string& sweep_id, const std::string& media_type);
+  /// Most time for a connection, and for each part of an answer.
+  void set_patience(std::chrono::milliseconds time) { client_.set_patience(time); }
+
+  [[nodiscard]] Json submit(Kind kind, const Json& request);
+  /// Stores a measurement.
+  /// @param media_type  of the text
+  /// @param key         Idempotency-Key; empty: none is sent
+  [[nodiscard]] Json submit_measurement(const std::string& text, const std::string& media_type,
+                                        const QueryItems& query, const std::string& key = "");
+  /// A page of a collection, the newest first, {"items": [...], "next_cursor": ...}.
+  [[nodiscard]] Json list(Kind kind, const QueryItems& query = {});
+  /// A resource. @throws BadInput if there is none
+  [[nodiscard]] Json find(Kind kind, const std::string& id);
+  /// Changes a resource. @param action  "cancel", say @param body  null: none is sent @returns the resource
+  [[nodiscard]] Json change(Kind kind, const std::string& id, std::string_view action, const Json& body = {});
+  void erase(Kind kind, const std::string& id);
+  /// A part of a resource, byte for byte as the service gives it.
+  /// @param part  "results", say
+  [[nodiscard]] std::string get_part(Kind kind, const std::string& id, std::string_view part,
+                                     const std::string& media_type, const QueryItems& query = {});
+  /// URL of a resource's page on the dashboard.
+  [[nodiscard]] std::string page_of(Kind kind, const std::string& id) const;
 
  private:
-  [[nodiscard]] nlohmann::ordered_json read(const HttpClient::Answer& answer) const;
+  [[nodiscard]] Json read(const HttpClient::Answer& answer) const;
   void check(const HttpClient::Answer& answer) const;
 
   std::string url_;

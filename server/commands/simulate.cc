@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/simulate.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "jobs/requests/parameters.h"
@@ -18,34 +15,27 @@
 #include "jobs/trajectories/npz.h"
 #include "jobs/trajectories/trajectory_codec.h"
 #include "server/commands/command.h"
+#include "server/commands/output_format.h"
 #include "server/commands/plot.h"
+#include "server/commands/terminal.h"
 #include "server/messages/json_text.h"
 
 namespace server::commands {
 
 namespace {
 
-void check_trajectory_file(const std::string& path) {
-  if (path.empty()) return;
-  const auto extension = std::filesystem::path(path).extension();
-  if (extension != ".csv" && extension != ".json" && extension != ".npz") {
-    throw BadInput("--trajectory " + path + ": the name must end in .csv, .json or .npz");
-  }
-  check_output_file("--trajectory", path);
+/// Format of the trajectory; empty if there is none. @throws BadInput
+std::optional<TableFormat> check_trajectory(const SimulateOptions& options) {
+  if (options.trajectory.empty()) return std::nullopt;
+  if (options.trajectory == "-")
+    throw BadInput("--trajectory -: standard output has the job; must be the name of a file");
+  return check_output({"--trajectory", options.trajectory}, options.format, DataShape::kColumns);
 }
 
 void check_plot_file(const std::string& plot) {
   if (plot.empty() || plot == "-") return;
-  if (!plot.ends_with(".svg"))
-    throw BadInput("--plot " + plot + ": the name must end in .svg; - draws on the terminal");
+  check_suffix({"--plot", plot}, ".svg");
   check_output_file("--plot", plot);
-}
-
-/// The size of the terminal at standard error; a usual one if there is none.
-TerminalSize terminal_size() {
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return {};
-  return {.columns = size.ws_col, .rows = size.ws_row};
 }
 
 /// What the user's locale can show.
@@ -85,10 +75,9 @@ void check_channels(const SimulateOptions& options, const jobs::JobSpec& spec) {
   if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
 }
 
-/// In the format that the file's name ends in.
-std::string trajectory_text(const std::string& path, const engine::Trajectory& trajectory) {
-  if (path.ends_with(".npz")) return jobs::to_npz(trajectory);
-  return path.ends_with(".csv") ? jobs::to_csv(trajectory) : jobs::to_json_columns(trajectory);
+std::string trajectory_text(TableFormat format, const engine::Trajectory& trajectory) {
+  if (format == TableFormat::kNpz) return jobs::to_npz(trajectory);
+  return format == TableFormat::kCsv ? jobs::to_csv(trajectory) : jobs::to_json_columns(trajectory);
 }
 
 /// The channels that were asked for, in the order of the table, time first.
@@ -108,15 +97,15 @@ engine::Trajectory select(engine::Trajectory all, const std::vector<std::string>
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
-  check_trajectory_file(options.trajectory);
+  const auto format = check_trajectory(options);
   check_plot_file(options.plot);
   const nlohmann::json parameters = read_json(options.file);
   check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")));
   const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
-  if (!options.trajectory.empty()) {
+  if (format) {
     const auto trajectory = select(jobs::rounded_to_stored(outcome.trajectory),
                                    options.channels);  // as the service would give it
-    write_text(options.trajectory, trajectory_text(options.trajectory, trajectory));
+    write_text(options.trajectory, trajectory_text(*format, trajectory));
   }
   const bool on_terminal = options.plot == "-";
   if (!options.plot.empty() && !on_terminal) plot_to_file(options.plot, outcome.trajectory);

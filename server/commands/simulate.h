@@ -8,7 +8,8 @@ namespace server::commands {
 
 struct SimulateOptions {
   std::string file;                   ///< parameter object; "-": standard input
-  std::string trajectory;             ///< where the trajectory goes, .csv, .json or .npz; empty: nowhere
+  std::string trajectory;             ///< file of the trajectory; empty: none
+  std::string format;                 ///< of the trajectory; empty: that of the file's suffix
   std::vector<std::string> channels;  ///< of the trajectory; empty: all
   std::string
       plot;  ///< .svg file for a picture of the slider's acceleration; "-": standard error; empty: none

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -6,6 +7,7 @@
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
 #include "server/commands/remote_commands.h"
+#include "server/commands/study_answer.h"
 #include "server/messages/json_text.h"
 #include "server/messages/terminal_text.h"
 
@@ -27,7 +29,7 @@ std::string percent(const Json& sweep) {
 }
 
 std::string time_left(const Json& sweep) {
-  const Json& eta = sweep.at("eta_s");
+  const Json eta = sweep.value("eta_s", Json());
   return eta.is_number() && sweep.at("progress").get<double>() < 1.0 ? format_duration(eta.get<double>())
                                                                      : "-";
 }
@@ -43,23 +45,33 @@ std::string describe_counts(const Json& counts) {
 }
 
 void add_line_to(std::ostream& out, const std::string& key, const std::string& text) {
-  out << std::left << std::setw(10) << key << text << '\n';
+  out << std::left << std::setw(13) << key << text << '\n';
+}
+
+/// Text at a key that not every kind of resource has.
+std::string text_at_or(const Json& resource, const char* key, const std::string& otherwise) {
+  return resource.contains(key) ? text_or(resource.at(key), otherwise) : otherwise;
 }
 
 std::string describe_times(const Json& resource) {
-  return text_or(resource.at("created_at"), "-") + ", started " + text_or(resource.at("started_at"), "-") +
-         ", ended " + text_or(resource.at("ended_at"), "-");
+  return text_at_or(resource, "created_at", "-") + ", started " + text_at_or(resource, "started_at", "-") +
+         ", ended " + text_at_or(resource, "ended_at", "-");
 }
 
-std::string describe_sweep(const Json& sweep) {
+/// A sweep or a study, which has its answer at the end.
+std::string describe_set(Kind kind, const Json& set) {
   std::ostringstream out;
-  add_line_to(out, "sweep", text_of(sweep.at("id")) + "  " + text_of(sweep.at("name")));
-  add_line_to(out, "state", text_of(sweep.at("state")));
-  add_line_to(out, "progress", percent(sweep) + ", time left " + time_left(sweep));
+  add_line_to(out, std::string(info_of(kind).noun), text_of(set.at("id")) + "  " + text_of(set.at("name")));
+  if (set.contains("sweep_id")) add_line_to(out, "sweep", text_of(set.at("sweep_id")));
+  add_line_to(out, "state", text_of(set.at("state")));
+  add_line_to(out, "progress", percent(set) + ", time left " + time_left(set));
   add_line_to(out, "jobs",
-              std::to_string(sweep.at("counts").at("total").get<long>()) + ": " +
-                  describe_counts(sweep.at("counts")));
-  add_line_to(out, "created", describe_times(sweep));
+              std::to_string(set.at("counts").at("total").get<long>()) + ": " +
+                  describe_counts(set.at("counts")));
+  if (text_at_or(set, "error", "") != "") add_line_to(out, "error", text_of(set.at("error")));
+  add_line_to(out, "created", describe_times(set));
+  if (set.at("state") == "succeeded")
+    out << terminal_text(answer_text(kind, nlohmann::json(set)), LineEnds::kKept);
   return out.str();
 }
 
@@ -74,6 +86,34 @@ std::string describe_job(const Json& job) {
   add_line_to(out, "created", describe_times(job));
   add_line_to(out, "attempts", std::to_string(job.at("attempts").get<long>()));
   return out.str();
+}
+
+std::string describe_measurement(const Json& measurement) {
+  std::ostringstream out;
+  add_line_to(out, "measurement", text_of(measurement.at("id")) + "  " + text_of(measurement.at("name")));
+  add_line_to(out, "samples", std::to_string(measurement.at("samples").get<long>()));
+  for (const Json& channel : measurement.at("channels"))
+    add_line_to(out, "channel", text_of(channel.at("name")) + ", " + text_or(channel.at("unit"), "-"));
+  add_line_to(out, "created", text_at_or(measurement, "created_at", "-"));
+  return out.str();
+}
+
+std::string describe(Kind kind, const Json& resource) {
+  if (kind == Kind::kJob) return describe_job(resource);
+  return kind == Kind::kMeasurement ? describe_measurement(resource) : describe_set(kind, resource);
+}
+
+/// Ids that a command takes, a line each, the newest of each kind first. Quick, for the completion of shells.
+std::string list_ids(const RemoteOptions& remote, const std::string& command) {
+  constexpr std::chrono::milliseconds kPatience{1000};
+  RemoteService service(remote);
+  service.set_patience(kPatience);
+  std::string text;
+  for (const Kind kind : kinds_of_command(command)) {
+    const Json page = service.list(kind, {{"limit", "50"}, {"fields", "id"}});
+    for (const Json& item : page.at("items")) text += text_of(item.at("id")) + "\n";
+  }
+  return text;
 }
 
 /// A line a sweep, newest first; what takes any length comes last.
@@ -96,17 +136,20 @@ std::string describe_list(const Json& items) {
 }  // namespace
 
 int status(const StatusOptions& options) {
+  if (!options.ids_for.empty()) {
+    write_text("-", list_ids(options.remote, options.ids_for));
+    return kDone;
+  }
   RemoteService service(options.remote);
   if (options.id.empty()) {
-    const Json page = service.list_sweeps();
+    const Json page = service.list(Kind::kSweep);
     write_text("-", options.json ? to_text(page, 2) + "\n" : describe_list(page.at("items")));
     return kDone;
   }
-  const auto [kind, resource] = service.find(options.id);
-  const std::string text =
-      kind == RemoteService::Kind::kSweep ? describe_sweep(resource) : describe_job(resource);
-  write_text("-", options.json ? to_text(resource, 2) + "\n" : text);
-  return resource.at("state") == "failed" ? kJobFailed : kDone;
+  const Kind kind = checked_kind("status", options.id);
+  const Json resource = service.find(kind, options.id);
+  write_text("-", options.json ? to_text(resource, 2) + "\n" : describe(kind, resource));
+  return resource.value("state", "") == "failed" ? kJobFailed : kDone;
 }
 
 }  // namespace server::commands

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/study.h"
 
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -18,7 +15,11 @@
 #include "jobs/measurements/read_measurement_npz.h"
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
+#include "server/commands/remote_commands.h"
 #include "server/commands/signals.h"
+#include "server/commands/study_answer.h"
+#include "server/messages/terminal_text.h"
+#include "server/routes/tables.h"
 
 namespace server::commands {
 
@@ -28,10 +29,18 @@ using jobs::StudyKind;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+StudyKind study_kind_of(Kind kind) {
+  switch (kind) {
+    case Kind::kSearch: return StudyKind::kLimit;
+    case Kind::kWearStudy: return StudyKind::kWear;
+    case Kind::kOptimisation: return StudyKind::kOptimisation;
+    default: return StudyKind::kFit;
+  }
+}
+
 /// Waits for the end of a study and shows the progress of its sweep. False if the user ended it first.
 bool follow_study(jobs::Service& service, StudyKind kind, const json& study, const EndSignals& signals) {
-  ProgressView view(std::cerr,
-                    isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
+  ProgressView view = ProgressView::on_standard_error();
   bool ended = false;
   bool interrupted = false;
   while (!ended && !interrupted) {
@@ -64,62 +73,8 @@ std::optional<json> run_study(jobs::Service& service, StudyKind kind, const orde
     std::cerr << "rpsup: interrupted; the same command computes only what is missing\n";
     return std::nullopt;
   }
-  write_text(options.results, to_text(*service.find_study_table(kind, id), format_of_file(options.results)));
+  write_text(options.results, to_text(*service.find_study_table(kind, id), check_results(options)));
   return service.find_study(kind, id);
-}
-
-std::string list_values(const json& values) {
-  std::string text;
-  for (const auto& [name, value] : values.items())
-    text += (text.empty() ? "" : ", ") + name + " = " + value.dump();
-  return text;
-}
-
-/// One line a candidate of the front, and how far it is to be trusted.
-void print_front(const json& study) {
-  const json& front = study.at("front");
-  if (front.empty()) std::cerr << "no candidate is feasible\n";
-  for (const json& candidate : front) {
-    std::cerr << list_values(candidate.at("metrics")) << " at " << list_values(candidate.at("values"))
-              << '\n';
-  }
-  if (study.at("best_repeats").is_null()) return;
-  std::cerr << study.at("best_repeats") << " of " << study.at("starts").size()
-            << " starts end within 1 % of the best value\n";
-}
-
-std::string short_number(const json& value, const char* otherwise) {
-  if (!value.is_number()) return otherwise;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value.get<double>());
-  return text;
-}
-
-/// One line a parameter: value, and how sure it is.
-void print_values(const json& study) {
-  for (const json& parameter : study.at("parameters")) {
-    const bool has_range = !parameter.at("range").is_null();
-    const bool has_profile = !parameter.at("profile").is_null();
-    const json& interval = parameter.at(has_range ? "range" : has_profile ? "profile" : "linearised");
-    std::cerr << parameter.at("path").get<std::string>() << " = " << short_number(parameter.at("value"), "?");
-    if (!interval.is_null()) {
-      std::cerr << (has_range ? ", range " : ", 95 % interval ") << short_number(interval.at("low"), "none")
-                << " to " << short_number(interval.at("high"), "none");
-    }
-    std::cerr << '\n';
-  }
-  for (const json& signal : study.at("signals")) {
-    for (const char* const use : {"fitted", "held_back"}) {
-      const json& error = signal.at(use);
-      if (error.is_null()) continue;
-      std::cerr << signal.at("channel").get<std::string>() << " of run " << signal.at("run") << ", "
-                << (use == std::string("fitted") ? "fitted" : "held back") << ": RMS "
-                << short_number(error.at("rms"), "?") << ", peak "
-                << short_number(error.at("predicted_peak"), "?") << " (measured "
-                << short_number(error.at("measured_peak"), "?") << ")\n";
-    }
-  }
-  for (const json& remark : study.at("remarks")) std::cerr << remark.get<std::string>() << '\n';
 }
 
 jobs::Measurement read_measurement_file(const std::string& path, const ordered_json& entry) {
@@ -131,45 +86,98 @@ jobs::Measurement read_measurement_file(const std::string& path, const ordered_j
                                 : jobs::read_measurement_csv(text, query);
 }
 
-/// Stores the files that the request names, and puts the ids of their measurements in their places. A file
-/// that was stored before has its id.
-void store_files(jobs::Service& service, const SweepOptions& options, ordered_json& request) {
+/// File of measured signals that an entry of a request names.
+struct MeasuredFile {
+  std::string path;
+  std::string key;  ///< the same for the same entry and the same content
+};
+
+/// Stores the files that the request names, and puts the ids of their measurements in their places.
+/// @param store  a file, whose entry it is given, too; returns the id
+void store_files(const std::string& request_file, ordered_json& request,
+                 const std::function<std::string(const MeasuredFile&, const ordered_json&)>& store) {
   if (!request.is_object() || !request.contains("measurements") || !request["measurements"].is_array())
     return;
   for (ordered_json& entry : request["measurements"]) {
     if (!entry.is_object() || !entry.contains("file") || !entry["file"].is_string()) continue;
-    const auto path = std::filesystem::path(options.file).parent_path() / entry["file"].get<std::string>();
+    const auto path = std::filesystem::path(request_file).parent_path() / entry["file"].get<std::string>();
     const std::string key = jobs::sha256_hex(entry.dump() + read_text(path.string()));
-    json stored = service.submit_measurement(read_measurement_file(path.string(), entry), key);
-    if (!service.find_measurement(stored.at("id")))  // it has been deleted since
-      stored = service.submit_measurement(read_measurement_file(path.string(), entry), "");
+    const std::string id = store({path.string(), key}, entry);
     entry.erase("file");
     entry.erase("columns");
-    entry["id"] = stored.at("id");
+    entry["id"] = id;
   }
+}
+
+/// Id of a stored file; one that was stored before has its id, unless it has been deleted since.
+std::string store_here(jobs::Service& service, const MeasuredFile& file, const ordered_json& entry) {
+  json stored = service.submit_measurement(read_measurement_file(file.path, entry), file.key);
+  if (!service.find_measurement(stored.at("id")))
+    stored = service.submit_measurement(read_measurement_file(file.path, entry), "");
+  return stored.at("id");
+}
+
+/// The same in a running service.
+std::string store_there(RemoteService& service, const RemoteOptions& remote, const MeasuredFile& file,
+                        const ordered_json& entry) {
+  MeasureOptions options{.remote = remote, .file = file.path, .name = {}, .time = {}, .channels = {}};
+  if (entry.contains("columns")) {
+    for (auto column : entry.at("columns").get<std::vector<std::string>>()) {
+      if (const auto colon = column.rfind(':'); colon != std::string::npos) column[colon] = '=';
+      options.channels.push_back(column);
+    }
+  }
+  const auto id = store_measurement(service, options, file.key);
+  try {
+    static_cast<void>(service.find(Kind::kMeasurement, id));
+    return id;
+  } catch (const BadInput&) {
+    return store_measurement(service, options, "");
+  }
+}
+
+std::optional<json> compute_in_store(Kind kind, ordered_json request, const SweepOptions& options) {
+  if (kind == Kind::kSweep) return sweep_in_store(request, options);
+  jobs::Service service(service_options_of(options));
+  store_files(options.file, request, [&](const MeasuredFile& file, const ordered_json& entry) {
+    return store_here(service, file, entry);
+  });
+  return run_study(service, study_kind_of(kind), request, options);
+}
+
+/// Submits a request with its files. @returns the id
+std::string submit_to(RemoteService& service, Kind kind, ordered_json& request, const SweepOptions& options) {
+  try {
+    store_files(options.file, request, [&](const MeasuredFile& file, const ordered_json& entry) {
+      return store_there(service, options.remote, file, entry);
+    });
+    return service.submit(kind, request).at("id");
+  } catch (const Unreachable& error) {
+    throw Unreachable(std::string(error.what()) + " With --db FILE the command needs no service");
+  }
+}
+
+std::optional<json> compute_by_service(Kind kind, ordered_json request, const SweepOptions& options) {
+  RemoteService service(options.remote);
+  const std::string id = submit_to(service, kind, request, options);
+  std::cerr << info_of(kind).noun << ' ' << terminal_text(id) << " at " << options.remote.url << '\n';
+  const auto ended = follow(service, kind, id);
+  if (!ended) return std::nullopt;
+  const std::string media_type(info_of(check_results(options)).media_type);
+  write_text(options.results, service.get_part(kind, id, "results", media_type));
+  return json(*ended);
 }
 
 }  // namespace
 
-int optimise(const SweepOptions& options) {
-  if (options.results != "-") check_output_file("--results", options.results);
-  const auto request = read_json(options.file);
-  jobs::Service service(service_options_of(options));
-  const auto ended = run_study(service, StudyKind::kOptimisation, request, options);
-  if (!ended) return kInterrupted;
-  print_front(*ended);
-  return ended->at("state") == "succeeded" && !ended->at("front").empty() ? kDone : kJobFailed;
-}
-
-int fit(const SweepOptions& options) {
-  if (options.results != "-") check_output_file("--results", options.results);
+int compute(Kind kind, const SweepOptions& options) {
+  static_cast<void>(check_results(options));
   auto request = read_json(options.file);
-  jobs::Service service(service_options_of(options));
-  store_files(service, options, request);
-  const auto ended = run_study(service, StudyKind::kFit, request, options);
+  const auto ended = options.store.empty() ? compute_by_service(kind, std::move(request), options)
+                                           : compute_in_store(kind, std::move(request), options);
   if (!ended) return kInterrupted;
-  print_values(*ended);
-  return ended->at("state") == "succeeded" ? kDone : kJobFailed;
+  std::cerr << terminal_text(answer_text(kind, *ended), LineEnds::kKept);
+  return has_answer(kind, *ended) ? kDone : kJobFailed;
 }
 
 }  // namespace server::commands

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/sweep.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <iostream>
+#include <string>
 
 #include "jobs/base/errors.h"
 #include "jobs/service.h"
 #include "server/commands/command.h"
+#include "server/commands/output_format.h"
 #include "server/commands/progress.h"
 #include "server/commands/signals.h"
 #include "server/messages/terminal_text.h"
@@ -19,9 +19,8 @@ namespace server::commands {
 namespace {
 
 /// Waits for the end of a sweep and shows its progress. False if the user ended it first.
-bool follow(jobs::Service& service, const std::string& id, const EndSignals& signals) {
-  ProgressView view(std::cerr,
-                    isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines);
+bool follow_sweep(jobs::Service& service, const std::string& id, const EndSignals& signals) {
+  ProgressView view = ProgressView::on_standard_error();
   bool ended = false;
   bool interrupted = false;
   while (!ended && !interrupted) {
@@ -33,7 +32,7 @@ bool follow(jobs::Service& service, const std::string& id, const EndSignals& sig
   return ended;
 }
 
-int interrupt(jobs::Service& service, const std::string& id) {
+void interrupt(jobs::Service& service, const std::string& id) {
   try {
     // What is left would start again with the store, beside the sweep that the same command submits next
     // time.
@@ -43,7 +42,6 @@ int interrupt(jobs::Service& service, const std::string& id) {
   }
   service.stop();
   std::cerr << "rpsup: interrupted; the same command computes only what is missing\n";
-  return kInterrupted;
 }
 
 }  // namespace
@@ -58,21 +56,22 @@ jobs::ServiceOptions service_options_of(const SweepOptions& options) {
   return service_options;
 }
 
-TableFormat format_of_file(const std::string& path) {
-  if (path.ends_with(".json")) return TableFormat::kJson;
-  return path.ends_with(".ndjson") ? TableFormat::kNdjson : TableFormat::kCsv;
+TableFormat check_results(const SweepOptions& options) {
+  return check_output({"--results", options.results}, options.format, DataShape::kRows);
 }
 
-int sweep(const SweepOptions& options) {
-  if (options.results != "-") check_output_file("--results", options.results);
-  const auto request = read_json(options.file);
+std::optional<nlohmann::json> sweep_in_store(const nlohmann::ordered_json& request,
+                                             const SweepOptions& options) {
   const EndSignals signals;
   jobs::Service service(service_options_of(options));
   const auto id = service.submit_sweep(request).at("id").get<std::string>();
   std::cerr << "sweep " << id << " in " << options.store << '\n';
-  if (!follow(service, id, signals)) return interrupt(service, id);
-  write_text(options.results, to_text(*service.find_results(id), format_of_file(options.results)));
-  return service.find_sweep(id)->at("state") == "succeeded" ? kDone : kJobFailed;
+  if (!follow_sweep(service, id, signals)) {
+    interrupt(service, id);
+    return std::nullopt;
+  }
+  write_text(options.results, to_text(*service.find_results(id), check_results(options)));
+  return service.find_sweep(id);
 }
 
 }  // namespace server::commands

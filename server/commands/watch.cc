@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "server/commands/command.h"
 #include "server/commands/progress.h"
 #include "server/commands/remote_commands.h"
 #include "server/commands/signals.h"
+#include "server/messages/json_text.h"
 #include "server/messages/terminal_text.h"
 
 namespace server::commands {
@@ -20,7 +22,8 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kBetweenLooks = 500ms;
-constexpr auto kPatience = 30s;  // with a service that has answered before
+constexpr auto kBetweenStudies = 1s;  // whose answers may be long
+constexpr auto kPatience = 30s;       // with a service that has answered before
 
 bool has_ended(const Json& resource) {
   const Json& state = resource.at("state");
@@ -35,21 +38,44 @@ Json as_sweep(const Json& job) {
   return {{"counts", counts}, {"progress", has_ended(job) ? 1.0 : 0.0}, {"eta_s", nullptr}};
 }
 
+/// "job_...  clearance_mm 0.25, coupler rigid", of a row of results.
+std::string describe_running(const Json& row) {
+  std::string text;
+  for (const auto& [column, value] : row.items()) {
+    const std::string shown = terminal_text(value.is_string() ? value.get<std::string>() : value.dump());
+    if (column == "job_id") text = shown + " ";
+    else text.append(text.ends_with(' ') ? " " : ", ").append(terminal_text(column) + " " + shown);
+  }
+  return text;
+}
+
+/// The running jobs of a sweep, with the parameters that it varies.
+std::vector<std::string> list_running(RemoteService& service, const Json& sweep) {
+  constexpr const char* kMost = "10";
+  if (sweep.at("counts").at("running") == 0) return {};
+  std::string fields = "job_id";
+  for (const Json& axis : sweep.at("axes")) fields += "," + axis.get<std::string>();
+  const auto rows =
+      parse_json(service.get_part(Kind::kSweep, sweep.at("id").get<std::string>(), "results", kJsonType,
+                                  {{"state", "running"}, {"fields", fields}, {"limit", kMost}}));
+  std::vector<std::string> lines;
+  for (const Json& row : rows) lines.push_back(describe_running(row));
+  return lines;
+}
+
 /// Looks at one resource again and again.
 class Watcher {
  public:
-  Watcher(const RemoteOptions& remote, const std::string& id)
-      : service_(remote),
-        id_(id),
-        view_(std::cerr, isatty(STDERR_FILENO) != 0 ? ProgressView::Form::kBar : ProgressView::Form::kLines) {
-  }
+  Watcher(RemoteService& service, Kind kind, const std::string& id)
+      : service_(service), kind_(kind), id_(id), view_(ProgressView::on_standard_error()) {}
 
-  /// @returns the state that it ended in; empty if the user ended the watching
-  std::optional<std::string> follow(const EndSignals& signals) {
+  /// @returns the resource that has ended; empty if the user ended the watching
+  std::optional<Json> follow(const EndSignals& signals) {
+    const bool is_study = kind_ != Kind::kSweep && kind_ != Kind::kJob;
     for (;;) {
-      const auto seen = look();
-      if (seen && has_ended(*seen)) return finish(seen->at("state").get<std::string>());
-      if (signals.arrived(kBetweenLooks)) return finish(std::nullopt);
+      auto seen = look();
+      if (seen && has_ended(*seen)) return finish(std::move(seen));
+      if (signals.arrived(is_study ? kBetweenStudies : kBetweenLooks)) return finish(std::nullopt);
     }
   }
 
@@ -57,8 +83,8 @@ class Watcher {
   /// Empty if the service did not answer, which it had done before.
   std::optional<Json> look() {
     try {
-      auto [kind, resource] = service_.find(id_);
-      view_.show(kind == RemoteService::Kind::kSweep ? resource : as_sweep(resource));
+      Json resource = service_.find(kind_, id_);
+      show(resource);
       lost_since_.reset();
       answered_ = true;
       return resource;
@@ -66,6 +92,15 @@ class Watcher {
       tell_loss(error);
       return std::nullopt;
     }
+  }
+
+  void show(const Json& resource) {
+    if (kind_ == Kind::kJob) return view_.show(as_sweep(resource));
+    const Json sweep = kind_ == Kind::kSweep
+                           ? resource
+                           : service_.find(Kind::kSweep, resource.at("sweep_id").get<std::string>());
+    const bool lists_jobs = view_.form() == ProgressView::Form::kBar;
+    view_.show(sweep, lists_jobs ? list_running(service_, sweep) : std::vector<std::string>());
   }
 
   void tell_loss(const Unreachable& error) {
@@ -79,12 +114,13 @@ class Watcher {
     if (Clock::now() - *lost_since_ > kPatience) throw error;
   }
 
-  std::optional<std::string> finish(std::optional<std::string> state) {
+  std::optional<Json> finish(std::optional<Json> resource) {
     view_.finish();
-    return state;
+    return resource;
   }
 
-  RemoteService service_;
+  RemoteService& service_;
+  Kind kind_;
   std::string id_;
   ProgressView view_;
   bool answered_ = false;
@@ -93,15 +129,20 @@ class Watcher {
 
 }  // namespace
 
-int watch(const WatchOptions& options) {
+std::optional<Json> follow(RemoteService& service, Kind kind, const std::string& id) {
   const EndSignals signals;
-  const auto state = Watcher(options.remote, options.id).follow(signals);
-  if (!state) {
-    std::cerr << "rpsup: no longer watching; " << options.id << " goes on (rpsup cancel ends it)\n";
-    return kInterrupted;
-  }
-  std::cerr << options.id << ' ' << terminal_text(*state) << '\n';
-  return *state == "succeeded" ? kDone : kJobFailed;
+  auto ended = Watcher(service, kind, id).follow(signals);
+  if (ended) std::cerr << id << ' ' << terminal_text(ended->at("state").get<std::string>()) << '\n';
+  else std::cerr << "rpsup: no longer watching; " << id << " goes on (rpsup cancel ends it)\n";
+  return ended;
+}
+
+int watch(const WatchOptions& options) {
+  const Kind kind = checked_kind("watch", options.id);
+  RemoteService service(options.remote);
+  const auto ended = follow(service, kind, options.id);
+  if (!ended) return kInterrupted;
+  return ended->at("state") == "succeeded" ? kDone : kJobFailed;
 }
 
 }  // namespace server::commands

@@ -36,8 +36,7 @@ std::string describe(httplib::Error error) {
   switch (error) {
     case httplib::Error::Connection:
       return "nothing answers there; is the service running (rpsup serve), and is --url or RPSUP_URL right?";
-    case httplib::Error::ConnectionTimeout:
-      return "no connection within " + std::to_string(kConnectSeconds) + " s";
+    case httplib::Error::ConnectionTimeout: return "no connection in time";
     case httplib::Error::SSLServerVerification: return "its certificate is not one that this machine trusts";
     case httplib::Error::SSLConnection:
     case httplib::Error::SSLLoadingCerts: return "no secure connection";
@@ -75,8 +74,18 @@ class HttpClient::Impl {
     return take(client_.Get(url_.prefix + path, httplib::Headers{{"Accept", accept}}));
   }
 
-  Answer post(const std::string& path, const std::string& body, const std::string& media_type) {
-    return take(client_.Post(url_.prefix + path, body, media_type));
+  Answer post(const std::string& path, const std::string& body, const std::string& media_type,
+              const std::string& key) {
+    httplib::Headers headers;
+    if (!key.empty()) headers.emplace("Idempotency-Key", key);
+    return take(client_.Post(url_.prefix + path, headers, body, media_type));
+  }
+
+  Answer erase(const std::string& path) { return take(client_.Delete(url_.prefix + path)); }
+
+  void set_patience(std::chrono::milliseconds time) {
+    client_.set_connection_timeout(time);
+    client_.set_read_timeout(time);
   }
 
  private:
@@ -100,11 +109,13 @@ HttpClient::Answer HttpClient::get(const std::string& path, const std::string& a
   return impl_->get(path, accept);
 }
 HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body) {
-  return impl_->post(path, body, "application/json");
+  return impl_->post(path, body, "application/json", "");
 }
 HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body,
-                                    const std::string& media_type) {
-  return impl_->post(path, body, media_type);
+                                    const std::string& media_type, const std::string& key) {
+  return impl_->post(path, body, media_type, key);
 }
+HttpClient::Answer HttpClient::erase(const std::string& path) { return impl_->erase(path); }
+void HttpClient::set_patience(std::chrono::milliseconds time) { impl_->set_patience(time); }
 
 }  // namespace server

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -49,8 +50,15 @@ class HttpClient {
   Answer post(const std::string& path, const std::string& body);
   /// @param path        with its query, if any
   /// @param media_type  of the body
+  /// @param key         Idempotency-Key; empty: none is sent
   /// @throws Unreachable
-  Answer post(const std::string& path, const std::string& body, const std::string& media_type);
+  Answer post(const std::string& path, const std::string& body, const std::string& media_type,
+              const std::string& key);
+  /// @throws Unreachable
+  Answer erase(const std::string& path);
+
+  /// Most time for a connection, and for each part of an answer.
+  void set_patience(std::chrono::milliseconds time);
 
  private:
   class Impl;

@@ -15,7 +15,7 @@ texts_of() {
 }
 
 commands=$("$rpsup" --help | awk '/^Subcommands:$/ { inside = 1; next } /^$/ { inside = 0 } inside && /^  [a-z]/ { print $1 }')
-expect_equal "$(wc -w <<<"$commands" | tr -d ' ')" 18 "commands"
+expect_equal "$(wc -w <<<"$commands" | tr -d ' ')" 27 "commands"
 options=0
 for command in $commands; do
   grep -qE "^ *rpsup $command( |$)" page || fail "the page has no section of $command"

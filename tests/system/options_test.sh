@@ -44,6 +44,8 @@ expect_code 2 "$rpsup" --config wrong.ini simulate job.json
 expect_text err trajektory
 expect_code 2 "$rpsup" --config missing.ini simulate job.json
 RPSUP_CONFIG=missing.ini expect_code 2 "$rpsup" simulate job.json
+expect_code 2 "$rpsup" --config options.ini validate
+expect_text err '^rpsup: validate must be the first word'
 RPSUP_PORT=many expect_code 2 "$rpsup" serve --db a.db
 expect_text err port
 expect_code 2 "$rpsup" serve --db a.db --threads 0

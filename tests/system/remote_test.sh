@@ -86,7 +86,9 @@ expect_text err '^/parameters/nonsense: '
 expect_text err '^/sweep/clearance_mm/0: '
 expect_code 2 "$rpsup" submit missing.json
 expect_code 2 "$rpsup" status none
-expect_text err 'no sweep and no job none'
+expect_text err '^rpsup: status none: is no id of a sweep, job, search, wear study, optimisation, fit or measurement$'
+expect_code 2 "$rpsup" status swp_none
+expect_text err '^rpsup: there is no sweep swp_none$'
 expect_code 2 "$rpsup" results none
 expect_code 2 "$rpsup" watch ../../healthz
 expect_code 2 "$rpsup" status --url 127.0.0.1:8080

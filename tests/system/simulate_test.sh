@@ -70,8 +70,20 @@ expect_code 2 "$rpsup" simulate broken.json
 expect_text err 'broken.json: not JSON at byte 18'
 expect_code 2 "$rpsup" simulate missing.json
 expect_text err 'cannot read missing.json'
-expect_code 2 "$rpsup" simulate job.json --trajectory t.txt
-expect_text err '\.csv, \.json or \.npz'
+for name in t.txt t.ndjson t.parquet; do
+  expect_code 2 "$rpsup" simulate job.json --trajectory $name
+  expect_text err "^rpsup: --trajectory $name: the name of a trajectory must end in \.json, \.csv or \.npz$"
+done
+expect_code 0 "$rpsup" simulate job.json --trajectory plain --format json
+expect_equal "$(jq -r '.channels[0]' plain)" t_s "format of a name without suffix"
+expect_code 0 "$rpsup" simulate job.json --trajectory UPPER.CSV
+cmp UPPER.CSV t.csv
+expect_code 2 "$rpsup" simulate job.json --trajectory u.csv --format npz
+expect_text err '^rpsup: --trajectory u.csv: ends in .csv, but --format is npz$'
+expect_code 2 "$rpsup" simulate job.json --trajectory u --format ndjson
+expect_text err '^rpsup: --format ndjson: a trajectory is json, csv or npz$'
+expect_code 2 "$rpsup" simulate job.json --trajectory -
+[ ! -e u ] && [ ! -e u.csv ] || fail "a refused output was written"
 expect_code 2 "$rpsup" simulate job.json --trajectory nowhere/t.csv
 expect_text err 'no folder'
 expect_code 2 "$rpsup" simulate job.json --trajectory t.csv --channels no_such_channel

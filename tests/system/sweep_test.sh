@@ -28,6 +28,13 @@ expect_code 0 "$rpsup" sweep sweep.json --db one.db --results one.json
 expect_equal "$(jq -c '[length, .[0].state]' one.json)" '[6,"succeeded"]' "rows of the results as JSON"
 expect_code 0 "$rpsup" sweep sweep.json --db one.db --results one.ndjson
 expect_equal "$(jq -s length one.ndjson)" 6 "rows of the results line by line"
+expect_code 0 "$rpsup" sweep sweep.json --db one.db --format ndjson
+rows_of() { jq -c 'del(.job_id)' "$1"; }
+expect_equal "$(rows_of out)" "$(rows_of one.ndjson)" "rows on standard output in the format that is asked for"
+for name in one.parquet one.txt one.npz; do
+  expect_code 2 "$rpsup" sweep sweep.json --db none.db --results $name
+  expect_text err "^rpsup: --results $name: the name of a table must end in \.json, \.csv or \.ndjson$"
+done
 expect_code 2 "$rpsup" sweep sweep.json --db none.db --results nowhere/one.csv
 expect_text err '^rpsup: --results nowhere/one.csv: there is no folder .*/nowhere$'
 mkdir folder

@@ -14,6 +14,8 @@ namespace {
 using server::parse_service_url;
 using server::Unreachable;
 using server::commands::BadInput;
+using server::commands::checked_kind;
+using server::commands::Kind;
 using server::commands::RemoteService;
 using server_tests::canned;
 using server_tests::CannedServer;
@@ -44,9 +46,9 @@ TEST(RemoteService, SendsTheTokenAndThePrefix) {
   CannedServer server(
       {canned("201 Created", "application/json", sweep), canned("200 OK", "application/json", sweep)});
   RemoteService with({.url = server.url() + "/lab", .token = "s3cret"});
-  EXPECT_EQ(with.submit(RemoteService::Kind::kSweep, {{"name", "a"}}).at("id"), "swp_1");
+  EXPECT_EQ(with.submit(Kind::kSweep, {{"name", "a"}}).at("id"), "swp_1");
   RemoteService without({.url = server.url(), .token = ""});
-  EXPECT_EQ(without.find("swp_1").json.at("state"), "queued");
+  EXPECT_EQ(without.find(Kind::kSweep, "swp_1").at("state"), "queued");
   ASSERT_EQ(server.heads().size(), 2U);
   EXPECT_TRUE(server.heads()[0].starts_with("POST /lab/v1/sweeps HTTP/1.1\r\n")) << server.heads()[0];
   EXPECT_NE(server.heads()[0].find("\r\nAuthorization: Bearer s3cret\r\n"), std::string::npos)
@@ -65,12 +67,50 @@ TEST(RemoteService, PassesEveryFaultOn) {
       R"({"status": 422, "detail": "two", "errors": [{"pointer": "/a", "detail": "x"}, {"pointer": "/b", "detail": "y"}]})")});
   RemoteService service({.url = server.url(), .token = ""});
   try {
-    static_cast<void>(service.submit(RemoteService::Kind::kJob, {}));
+    static_cast<void>(service.submit(Kind::kJob, {}));
     FAIL() << "accepted";
   } catch (const jobs::InvalidRequest& error) {
     ASSERT_EQ(error.faults().size(), 2U);
     EXPECT_EQ(error.faults()[1].pointer, "/b");
     EXPECT_EQ(error.faults()[1].detail, "y");
+  }
+}
+
+TEST(RemoteService, SendsKeysAndEncodedQueries) {
+  CannedServer server({canned("201 Created", "application/json", R"({"id": "mea_1"})"),
+                       canned("200 OK", "text/csv", "a\r\n"),
+                       "HTTP/1.1 204 No Content\r\nConnection: close\r\n\r\n"});
+  RemoteService service({.url = server.url(), .token = ""});
+  EXPECT_EQ(service.submit_measurement("t,a\n", "text/csv", {{"name", "a b"}}, "key-1").at("id"), "mea_1");
+  EXPECT_EQ(service.get_part(Kind::kSweep, "swp_1", "results", "text/csv", {{"a&b", "1,2"}, {"limit", "3"}}),
+            "a\r\n");
+  service.erase(Kind::kFit, "fit_1");
+  const auto& heads = server.heads();
+  ASSERT_EQ(heads.size(), 3U);
+  EXPECT_TRUE(heads[0].starts_with("POST /v1/measurements?name=a%20b HTTP/1.1\r\n")) << heads[0];
+  EXPECT_NE(heads[0].find("\r\nIdempotency-Key: key-1\r\n"), std::string::npos) << heads[0];
+  EXPECT_TRUE(heads[1].starts_with("GET /v1/sweeps/swp_1/results?a%26b=1%2C2&limit=3 HTTP/1.1\r\n"))
+      << heads[1];
+  EXPECT_TRUE(heads[2].starts_with("DELETE /v1/fits/fit_1 HTTP/1.1\r\n")) << heads[2];
+}
+
+TEST(RemoteService, KnowsPagesOfTheDashboardBehindAPrefix) {
+  RemoteService service({.url = "https://lab.example.org/rpsup/", .token = ""});
+  EXPECT_EQ(service.page_of(Kind::kWearStudy, "wst_1"), "https://lab.example.org/rpsup/#/wear/wst_1");
+}
+
+TEST(RemoteKinds, AreThoseOfTheIdsThatACommandTakes) {
+  EXPECT_EQ(checked_kind("retry", "opt_1"), Kind::kOptimisation);
+  EXPECT_EQ(checked_kind("trajectory", "mea_1"), Kind::kMeasurement);
+  for (const char* const id : {"job_1", "none", "", "swp_1/../../healthz", "xswp_1"}) {
+    try {
+      static_cast<void>(checked_kind("retry", id));
+      ADD_FAILURE() << "accepted " << id;
+    } catch (const BadInput& error) {
+      EXPECT_EQ(
+          std::string(error.what()),
+          "retry " + std::string(id) + ": is no id of a sweep, search, wear study, optimisation or fit");
+    }
   }
 }
 
@@ -84,7 +124,7 @@ Told tell(const std::string& answer) {
   CannedServer server({answer});
   testing::internal::CaptureStderr();
   const int code = server::commands::run_guarded([&]() -> int {
-    static_cast<void>(RemoteService({.url = server.url(), .token = ""}).list_sweeps());
+    static_cast<void>(RemoteService({.url = server.url(), .token = ""}).list(Kind::kSweep));
     return server::commands::kDone;
   });
   return {code, testing::internal::GetCapturedStderr()};
@@ -121,10 +161,11 @@ TEST(RemoteService, SaysThatNothingAnswers) {
     port = std::stoi(gone.url().substr(17));
   }
   RemoteService service({.url = "http://127.0.0.1:" + std::to_string(port), .token = ""});
-  EXPECT_THROW(static_cast<void>(service.list_sweeps()), Unreachable);
+  EXPECT_THROW(static_cast<void>(service.list(Kind::kSweep)), Unreachable);
   // Half an answer is none.
   CannedServer half({"HTTP/1.1 200 OK\r\nContent-Length: 100\r\n\r\n{"});
-  EXPECT_THROW(static_cast<void>(RemoteService({.url = half.url(), .token = ""}).list_sweeps()), Unreachable);
+  EXPECT_THROW(static_cast<void>(RemoteService({.url = half.url(), .token = ""}).list(Kind::kSweep)),
+               Unreachable);
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/commands/arguments.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "jobs/parameters/nearest_name.h"
+#include "server/commands/command.h"
+
+namespace server::commands {
+
+namespace {
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+bool is_option(const std::string& word) { return word.size() > 1 && word.starts_with('-'); }
+
+/// Whether the word after an option is its value, in any command that has the option.
+bool takes_next_word(const CLI::App& app, const std::string& word) {
+  const auto takes = [&](const CLI::App* command) {
+    const CLI::Option* const option = command->get_option_no_throw(word);
+    return option != nullptr && option->get_items_expected_min() > 0;
+  };
+  return word.find('=') == std::string::npos && (takes(&app) || std::ranges::any_of(commands_of(app), takes));
+}
+
+/// The parser would take any word after --plot for its value, such as the file with the parameters.
+void join_plot(std::vector<std::string>& words) {
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (*word != "--plot") continue;
+    const auto next = word + 1;
+    const bool named = next != words.end() && (*next == "-" || next->ends_with(".svg"));
+    *word = "--plot=" + (named ? *next : "-");
+    if (named) words.erase(next);
+  }
+}
+
+/// "did you mean status?", or how to see what there is.
+std::string suggest(const std::string& name, const std::vector<std::string>& known, const std::string& help) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  const auto nearest = jobs::find_nearest_name(name, names);
+  return nearest ? "did you mean " + std::string(*nearest) + "?" : help + " lists all";
+}
+
+void check_command(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> names;
+  for (const CLI::App* const command : commands_of(app)) names.push_back(command->get_name());
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw BadInput("there is no command " + name + "; " + suggest(name, names, "rpsup --help"));
+}
+
+}  // namespace
+
+std::vector<std::string> arrange_arguments(const CLI::App& app, std::vector<std::string> words) {
+  join_plot(words);
+  std::vector<std::string> first;   // options of the program
+  std::vector<std::string> behind;  // options of the command
+  auto word = words.begin();
+  while (word != words.end() && is_option(*word)) {
+    const std::string name = word->substr(0, word->find('='));
+    auto& to = app.get_option_no_throw(name) != nullptr ? first : behind;
+    const bool has_value = takes_next_word(app, *word) && std::next(word) != words.end();
+    to.push_back(*word++);
+    if (has_value) to.push_back(*word++);
+  }
+  if (word == words.end()) return words;  // the parser tells that a command is missing
+  check_command(app, *word);
+  const auto end = std::find(word, words.end(), "--");
+  first.insert(first.end(), word, end);
+  first.insert(first.end(), behind.begin(), behind.end());
+  first.insert(first.end(), end, words.end());
+  return first;
+}
+
+std::string describe_unknown_option(const CLI::App& app, const std::string& word) {
+  const std::string name = word.substr(0, word.find('='));
+  std::vector<std::string> known;
+  std::string place = app.get_name();
+  std::string help = place;
+  const auto add_options = [&](const CLI::App& command) {
+    for (const CLI::Option* const option : command.get_options())
+      if (is_option(option->get_name())) known.push_back(option->get_name());
+  };
+  add_options(app);
+  for (const CLI::App* const command : app.get_subcommands()) {
+    add_options(*command);
+    place = command->get_name();
+    help += " " + place;
+  }
+  return "there is no option " + name + " of " + place + "; " +
+         suggest(name, known, help + " --help");
+}
+
+bool is_given(const std::vector<std::string>& words, const std::string& option) {
+  return std::ranges::any_of(
+      words, [&](const std::string& word) { return word == option || word.starts_with(option + "="); });
+}
+
+}  // namespace server::commands

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/commands/output_format.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "server/commands/command.h"
+
+namespace server::commands {
+
+namespace {
+
+/// "json, csv or ndjson", each after the sign.
+std::string list_formats(DataShape shape, std::string_view sign) {
+  const auto words = format_words(shape);
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 == words.size() ? " or " : ", ").append(sign).append(words[i]);
+  return text;
+}
+
+const char* describe(DataShape shape) { return shape == DataShape::kRows ? "a table" : "a trajectory"; }
+
+/// Suffix of a file's name in lower case, without its dot.
+std::string suffix_of(const std::string& path) {
+  std::string suffix = std::filesystem::path(path).extension().string();
+  if (!suffix.empty()) suffix.erase(0, 1);
+  std::ranges::transform(suffix, suffix.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
+std::optional<TableFormat> find_format_of(std::string_view word, DataShape shape) {
+  const auto format = find_format(word);
+  return format && info_of(*format).holds(shape) ? format : std::nullopt;
+}
+
+}  // namespace
+
+void add_format_option(CLI::App& command, std::string& format, DataShape shape) {
+  std::vector<std::string> words;
+  for (const FormatInfo& info : kFormats) words.emplace_back(info.word);
+  command
+      .add_option("--format", format,
+                  "Format of " + std::string(describe(shape)) + ": " + list_formats(shape, "") +
+                      "; if left out, that of the file's suffix, else csv")
+      ->check(CLI::IsMember(words))
+      ->envname("RPSUP_FORMAT");
+}
+
+TableFormat find_output_format(const OutputFile& file, const std::string& format, DataShape shape) {
+  const auto asked = find_format_of(format, shape);
+  if (!format.empty() && !asked)
+    throw BadInput("--format " + format + ": " + describe(shape) + " is " + list_formats(shape, ""));
+  const std::string suffix = file.path == "-" ? "" : suffix_of(file.path);
+  if (suffix.empty()) return asked.value_or(TableFormat::kCsv);
+  const auto named = find_format_of(suffix, shape);
+  if (!named) {
+    throw BadInput(file.option + " " + file.path + ": the name of " + describe(shape) + " must end in " +
+                   list_formats(shape, "."));
+  }
+  if (asked && *asked != *named)
+    throw BadInput(file.option + " " + file.path + ": ends in ." + suffix + ", but --format is " + format);
+  return *named;
+}
+
+TableFormat check_output(const OutputFile& file, const std::string& format, DataShape shape) {
+  const TableFormat found = find_output_format(file, format, shape);
+  if (file.path != "-") check_output_file(file.option, file.path);
+  return found;
+}
+
+void check_suffix(const OutputFile& file, const std::string& suffix) {
+  if (file.path == "-" || "." + suffix_of(file.path) == suffix) return;
+  throw BadInput(file.option + " " + file.path + ": the name must end in " + suffix);
+}
+
+}  // namespace server::commands
