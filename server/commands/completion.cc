@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/completion.h"
 
+#include <set>
+#include <string_view>
+
 namespace server::commands {
 
 namespace {
@@ -38,23 +41,48 @@ std::vector<std::string> names_of_options(const CommandEntry& command) {
   return names;
 }
 
+/// Command of a shell that lists the ids that a command takes; quiet if the service cannot be reached.
+std::string list_ids(const std::string& program, const std::string& command) {
+  return program + " status --ids " + command + " 2>/dev/null";
+}
+
+bool is_value_of_option(const OptionEntry& option) {
+  return !option.argument && !option.value.empty() && !option.optional_value;
+}
+
+/// "--config|--url", the options that take the next word, of all commands.
+std::string options_with_values(const std::vector<CommandEntry>& commands) {
+  std::set<std::string> names;
+  for (const CommandEntry& command : commands)
+    for (const OptionEntry& option : command.options)
+      if (is_value_of_option(option)) names.insert(option.name);
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : "|") + name;
+  return text;
+}
+
 /// What bash is to offer as an option's value.
-std::string bash_values(const OptionEntry& option) {
+std::string bash_values(const OptionEntry& option, const std::string& command) {
+  if (option.value == kIdType) {
+    return "mapfile -t COMPREPLY < <(compgen -W \"$(" +
+           list_ids("\"${words[0]}\" \"${remote[@]}\"", command) + ")\" -- \"$current\")";
+  }
   if (!option.choices.empty())
     return "mapfile -t COMPREPLY < <(compgen -W " + quoted(spaced(option.choices)) + " -- \"$current\")";
   return option.value == kFile ? "_rpsup_files" : "COMPREPLY=()";
 }
 
-std::string zsh_action(const OptionEntry& option) {
+std::string zsh_action(const OptionEntry& option, const std::string& command) {
+  if (option.value == kIdType) return "{compadd -- ${(f)\"$(" + list_ids("rpsup", command) + ")\"}}";
   if (!option.choices.empty()) return "(" + spaced(option.choices) + ")";
   return option.value == kFile ? "_files" : " ";
 }
 
-/// '--port[Port to listen on]:INT: ', '1:file:_files'
-std::string zsh_specification(const OptionEntry& option) {
+/// '--port[Port to listen on]:INT: ', ':file:_files'
+std::string zsh_specification(const OptionEntry& option, const std::string& command) {
   const std::string value =
-      ":" + escaped(option.argument ? option.name : option.value, ":") + ":" + zsh_action(option);
-  if (option.argument) return quoted((option.many ? "*" : "1") + value);
+      ":" + escaped(option.argument ? option.name : option.value, ":") + ":" + zsh_action(option, command);
+  if (option.argument) return quoted((option.many ? "*" : "") + value);
   const std::string name = option.name + "[" + escaped(option.help, "[]:\\") + "]";
   if (option.value.empty()) return quoted(name);
   return quoted(name + (option.optional_value ? ":" : "") + value);
@@ -76,16 +104,19 @@ std::string make_bash_completion(const std::vector<CommandEntry>& commands) {
   for (const CommandEntry& command : commands) {
     const bool program = &command == &commands.front();
     if (!program) first.push_back(command.name);
+    int argument = 0;
     for (const OptionEntry& option : command.options) {
       if (option.value.empty() || option.optional_value) continue;
-      const std::string place = option.argument ? quoted(command.name + " argument")
+      const std::string number = option.argument && !option.many ? std::to_string(argument++) : "";
+      const std::string place = option.argument
+                                    ? quoted(command.name + " argument " + number) + (option.many ? "*" : "")
                                                 : (program ? "*" + quoted(" " + option.name)
                                                            : quoted(command.name + " " + option.name));
-      if (option.argument && option.choices.empty()) continue;
-      values += "    " + place + ") " + bash_values(option) + "; return ;;\n";
+      if (option.argument && option.choices.empty() && option.value != kIdType) continue;
+      values += "    " + place + ") " + bash_values(option, command.name) + "; return ;;\n";
     }
     if (!program)
-      words += "    " + command.name + ") words=" + quoted(spaced(names_of_options(command))) + " ;;\n";
+      words += "    " + command.name + ") choices=" + quoted(spaced(names_of_options(command))) + " ;;\n";
   }
   return R"(# bash completion of rpsup: source <(rpsup completion bash)
 _rpsup_files() {
@@ -94,23 +125,31 @@ _rpsup_files() {
 }
 
 _rpsup() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' words place i
-  for ((i = 1; i < COMP_CWORD; ++i)); do
-    case "${COMP_WORDS[i]}" in
-      --config) ((++i)) ;;
+  local current previous command='' argument=0 choices place i words remote=()
+  read -ra words <<<"${COMP_LINE:0:COMP_POINT}"  # bash itself would cut URLs at their colons
+  [[ ${COMP_LINE:0:COMP_POINT} != *[[:space:]] ]] || words+=('')
+  current=${words[-1]} previous=${words[-2]}
+  for ((i = 1; i < ${#words[@]} - 1; ++i)); do
+    case "${words[i]}" in
+      --url | --token-file | --config) remote+=("${words[i]}" "${words[++i]}") ;;
+      --url=* | --token-file=* | --config=*) remote+=("${words[i]}") ;;
+      )" + options_with_values(commands) + R"() ((++i)) ;;
       -*) ;;
-      *) command=${COMP_WORDS[i]}; break ;;
+      *) if [[ $command ]]; then ((++argument)); else command=${words[i]}; fi ;;
     esac
   done
-  place="$command $previous"
-  [[ $previous == -* || $current == -* ]] || place="$command argument"
+  case "$previous" in
+    )" + options_with_values(commands) + R"() place="$command $previous" ;;
+    *) place="$command argument $argument" ;;
+  esac
+  [[ $current != -* ]] || place=''
   case "$place" in
 )" + values + R"(  esac
   case "$command" in
-    '') words=)" + quoted(spaced(first)) + R"( ;;
+    '') choices=)" + quoted(spaced(first)) + R"( ;;
 )" + words + R"(  esac
   if [[ -z $command || $current == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$current")
   else
     _rpsup_files
   fi
@@ -123,11 +162,12 @@ std::string make_zsh_completion(const std::vector<CommandEntry>& commands) {
   std::string names;
   std::string cases;
   std::string general;
-  for (const OptionEntry& option : commands.front().options) general += " " + zsh_specification(option);
+  for (const OptionEntry& option : commands.front().options) general += " " + zsh_specification(option, "");
   for (auto command = commands.begin() + 1; command != commands.end(); ++command) {
     names += "        " + quoted(escaped(command->name, ":") + ":" + command->help) + "\n";
     cases += "        " + command->name + ") _arguments";
-    for (const OptionEntry& option : command->options) cases += " \\\n          " + zsh_specification(option);
+    for (const OptionEntry& option : command->options)
+      cases += " \\\n          " + zsh_specification(option, command->name);
     cases += " ;;\n";
   }
   return R"(#compdef rpsup
@@ -165,6 +205,9 @@ std::string make_fish_completion(const std::vector<CommandEntry>& commands) {
                 quoted(option.help) + "\n";
       } else if (!option.choices.empty()) {
         text += "complete -c rpsup" + here + " -a " + quoted(spaced(option.choices)) + "\n";
+      } else if (option.value == kIdType) {
+        text += "complete -c rpsup" + here + " -a " +
+                quoted("(" + list_ids("rpsup", command.name) + ")") + "\n";
       } else if (option.value == kFile) {
         text += "complete -c rpsup" + here + " -F\n";
       }
