@@ -99,8 +99,17 @@ class Watcher {
     const Json sweep = kind_ == Kind::kSweep
                            ? resource
                            : service_.find(Kind::kSweep, resource.at("sweep_id").get<std::string>());
-    const bool lists_jobs = view_.form() == ProgressView::Form::kBar;
-    view_.show(sweep, lists_jobs ? list_running(service_, sweep) : std::vector<std::string>());
+    if (view_.form() == ProgressView::Form::kBar) update_running(sweep);
+    view_.show(sweep, running_);
+  }
+
+  /// Lists the running jobs anew, unless it took so long last time that it would be a burden to the service.
+  void update_running(const Json& sweep) {
+    constexpr int kPauses = 20;  // as long as the list takes
+    const auto begin = Clock::now();
+    if (begin < list_again_ && sweep.at("counts").at("running") != 0) return;
+    running_ = list_running(service_, sweep);
+    list_again_ = Clock::now() + kPauses * (Clock::now() - begin);
   }
 
   void tell_loss(const Unreachable& error) {
@@ -123,6 +132,8 @@ class Watcher {
   Kind kind_;
   std::string id_;
   ProgressView view_;
+  std::vector<std::string> running_;  ///< a line for each running job
+  Clock::time_point list_again_;      ///< from then on
   bool answered_ = false;
   std::optional<Clock::time_point> lost_since_;
 };
