@@ -56,10 +56,8 @@ Command add_submit(CLI::App& app) {
   command->add_option("file", options->file, "JSON file with the request; - reads standard input")
       ->required()
       ->type_name("FILE");
-  std::vector<std::string> words;
-  for (const Kind kind : kRunningKinds) words.emplace_back(info_of(kind).word);
   command->add_option("--kind", options->kind, "Kind of the request")
-      ->check(CLI::IsMember(words))
+      ->check(CLI::IsMember(words_of(kRunningKinds)))
       ->capture_default_str();
   command->add_flag("--job", options->job, "The same as --kind job: the file holds the parameters of one job")
       ->excludes("--kind");
@@ -105,9 +103,18 @@ CLI::Option* add_output_option(CLI::App& command, std::string& output, const cha
 Command add_status(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
   CLI::App* const command = add_command(
-      app, "status", "Print the state of a sweep, a job, a study or a measurement, or list the newest sweeps",
-      *options);
-  add_id_option(*command, options->id);
+      app, "status",
+      "Print the state of a sweep, a job, a study or a measurement, or list the newest of a kind", *options);
+  CLI::Option* const id = add_id_option(*command, options->id);
+  command->add_option("--kind", options->kind, "Kind of what is listed without an id")
+      ->check(CLI::IsMember(words_of(kAllKinds)))
+      ->capture_default_str()
+      ->excludes(id);
+  command->add_option("--state", options->state, "State of what is listed, such as failed; any if left out")
+      ->excludes(id);
+  command->add_option("--limit", options->limit, "Most lines of the list; 50 if left out")
+      ->type_name("UINT")
+      ->excludes(id);
   command->add_flag("--json", options->json, "JSON of the service instead of text");
   std::vector<std::string> names;
   for (const IdCommand& each : kIdCommands) names.emplace_back(each.name);

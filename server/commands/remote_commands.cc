@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/remote_commands.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string_view>
@@ -66,9 +65,7 @@ int change_each(std::string_view action, const ChangeOptions& options, const Rem
 
 int submit(const SubmitOptions& options) {
   const auto request = read_json(options.file);
-  const auto* const info =
-      std::ranges::find(kKinds, std::string_view(options.job ? "job" : options.kind), &KindInfo::word);
-  const auto kind = static_cast<Kind>(info - kKinds.begin());
+  const Kind kind = options.job ? Kind::kJob : kind_of_word(options.kind);
   const auto id = RemoteService(options.remote).submit(kind, request).at("id").get<std::string>();
   write_text("-", terminal_text(id) + "\n");
   return options.watch ? watch({.remote = options.remote, .id = id}) : kDone;

@@ -40,9 +40,12 @@ int measure(const MeasureOptions& options);
 
 struct StatusOptions {
   RemoteOptions remote;
-  std::string id;         ///< empty: the newest sweeps
-  bool json = false;      ///< the resource as the service gives it
-  std::string ids_for{};  ///< command whose ids are listed instead; empty: none
+  std::string id;              ///< empty: the newest sweeps
+  bool json = false;           ///< the resource as the service gives it
+  std::string kind = "sweep";  ///< of a list, the word of a Kind
+  std::string state{};         ///< of a list; empty: any
+  std::string limit{};         ///< of a list; empty: that of the service
+  std::string ids_for{};       ///< command whose ids are listed instead; empty: none
 };
 
 /// Prints how far sweeps, jobs and studies are. kJobFailed if the one that was asked for has failed.

@@ -13,6 +13,16 @@ std::span<const Kind> kinds_of_command(std::string_view name) {
   return found == kIdCommands.end() ? std::span<const Kind>() : found->kinds;
 }
 
+Kind kind_of_word(std::string_view word) {
+  return static_cast<Kind>(std::ranges::find(kKinds, word, &KindInfo::word) - kKinds.begin());
+}
+
+std::vector<std::string> words_of(std::span<const Kind> kinds) {
+  std::vector<std::string> words;
+  for (const Kind kind : kinds) words.emplace_back(info_of(kind).word);
+  return words;
+}
+
 std::string list_kinds(std::span<const Kind> kinds) {
   std::string text;
   for (std::size_t i = 0; i < kinds.size(); ++i)

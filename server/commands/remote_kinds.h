@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "jobs/base/study_kind.h"
 
@@ -67,6 +68,12 @@ inline constexpr std::array<IdCommand, 11> kIdCommands{{{"status", kAllKinds},
 
 /// The kinds that a command takes; empty if it takes no ids.
 [[nodiscard]] std::span<const Kind> kinds_of_command(std::string_view name);
+
+/// Kind of a word, which is that of a kind.
+[[nodiscard]] Kind kind_of_word(std::string_view word);
+
+/// Words of kinds.
+[[nodiscard]] std::vector<std::string> words_of(std::span<const Kind> kinds);
 
 /// "sweep, search or fit".
 [[nodiscard]] std::string list_kinds(std::span<const Kind> kinds);

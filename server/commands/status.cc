@@ -25,6 +25,7 @@ std::string text_or(const Json& value, const std::string& otherwise) {
 }
 
 std::string percent(const Json& sweep) {
+  if (!sweep.contains("progress")) return "-";
   return std::to_string(std::lround(std::floor(100.0 * sweep.at("progress").get<double>()))) + " %";
 }
 
@@ -116,7 +117,7 @@ std::string list_ids(const RemoteOptions& remote, const std::string& command) {
   return text;
 }
 
-/// A line a sweep, newest first; what takes any length comes last.
+/// A line for each, newest first; what takes any length comes last. "-" stands for what a kind does not list.
 std::string describe_list(const Json& items) {
   std::ostringstream out;
   const auto add_row = [&](const std::string& id, const std::string& state, const std::string& progress,
@@ -125,10 +126,11 @@ std::string describe_list(const Json& items) {
         << progress << std::setw(16) << left << std::setw(7) << jobs << "  " << name << '\n';
   };
   add_row("ID", "STATE", "PROGRESS", "TIME LEFT", "JOBS", "NAME");
-  for (const Json& sweep : items) {
-    add_row(text_of(sweep.at("id")), text_of(sweep.at("state")), percent(sweep),
-            time_left(sweep), std::to_string(sweep.at("counts").at("total").get<long>()),
-            text_of(sweep.at("name")));
+  for (const Json& item : items) {
+    const bool has_counts = item.contains("counts");
+    add_row(text_of(item.at("id")), text_at_or(item, "state", "-"), percent(item), time_left(item),
+            has_counts ? std::to_string(item.at("counts").at("total").get<long>()) : "-",
+            text_at_or(item, "name", "-"));
   }
   return out.str();
 }
@@ -142,7 +144,10 @@ int status(const StatusOptions& options) {
   }
   RemoteService service(options.remote);
   if (options.id.empty()) {
-    const Json page = service.list(Kind::kSweep);
+    QueryItems query;
+    if (!options.state.empty()) query.emplace_back("state", options.state);
+    if (!options.limit.empty()) query.emplace_back("limit", options.limit);
+    const Json page = service.list(kind_of_word(options.kind), query);
     write_text("-", options.json ? to_text(page, 2) + "\n" : describe_list(page.at("items")));
     return kDone;
   }

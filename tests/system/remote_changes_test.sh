@@ -36,6 +36,17 @@ expect_code 0 "$rpsup" results "$id" --output rows.ndjson
 cmp rows.ndjson <(get "$url/v1/sweeps/$id/results?format=ndjson")
 [ ! -e rows.parquet ] || fail "a refused output was written"
 
+# Lists of other kinds.
+expect_code 0 "$rpsup" status --kind job --limit 1 --state succeeded
+expect_equal "$(wc -l <out | tr -d ' ')" 2 "one job and the heading"
+expect_text out '^job_[a-z0-9]+ +succeeded +- +- +-  -$'
+expect_code 0 "$rpsup" status --kind job --state failed
+expect_equal "$(wc -l <out | tr -d ' ')" 1 "failed jobs and the heading"
+expect_code 0 "$rpsup" status --kind fit --json
+expect_equal "$(jq -c .items out)" '[]' "fits"
+expect_code 2 "$rpsup" status "$id" --kind job
+expect_code 2 "$rpsup" status --state nothing
+
 # A trajectory.
 expect_code 0 "$rpsup" trajectory "$job" --channels slider_acceleration_m_s2 --from 0.1 --to 0.15 --points 20
 cmp out <(get "$url/v1/jobs/$job/trajectory?channels=slider_acceleration_m_s2&from=0.1&to=0.15&points=20&format=csv")
@@ -55,6 +66,8 @@ expect_code 0 "$rpsup" trajectory "$measured"
 expect_equal "$(tail -n 1 out | tr -d '\r')" '0.1,2' "the last sample of a measurement"
 expect_code 0 "$rpsup" status "$measured"
 expect_text out '^channel +slider_acceleration_m_s2, m/s²$'
+expect_code 0 "$rpsup" status --kind measurement
+expect_text out "^$measured +- +- +- +-  bench.csv$"
 
 # The report, and links of the dashboard.
 expect_code 0 "$rpsup" report "$id" --output report.html
