@@ -104,6 +104,9 @@ set(page_files
   study/best_so_far.js
   study/candidate_scatter.js
   study/chosen.js
+  study/colour_bar.js
+  study/curve_choice.js
+  study/curves.js
   study/data.js
   study/executors.js
   study/failures.js
@@ -111,6 +114,7 @@ set(page_files
   study/fit_points.js
   study/fit_signals.js
   study/fit_view.js
+  study/headlines.js
   study/heat_map.js
   study/interval_bar.js
   study/legend.js
@@ -123,11 +127,14 @@ set(page_files
   study/optimisation_answer.js
   study/optimisation_view.js
   study/parallel.js
+  study/scatter.js
   study/selection.js
   study/span.js
   study/study_list.js
   study/study_view.js
+  study/sweep_pickers.js
   study/sweep_row.js
+  study/sweep_view.js
   study/table.js
   study/variables.js
   study/wear_charts.js

@@ -3,56 +3,10 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
+import { drawn, force, metric, paperRows, reasons, row, visitRows } from "./given.mjs";
 import { endVisits, expectAccessible, leave, picture, textOf, visit } from "./visitor.mjs";
 
 after(endVisits);
-const metric = "peak_slider_acceleration_m_s2";
-const force = "peak_contact_force_n";
-
-/** A row of a job that was computed. */
-const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", ...values });
-
-/** What asks why jobs have failed. */
-const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
-
-/** How the paper's seven statements, and one without a number, stand over so many settings. */
-function paperRows(settings) {
-  const holds = (number) => settings === 1 && number !== 3;
-  const found = (number) => (number === 5 ? { settings: 0, share: null, holds: null, found_least: null, found_largest: null }
-    : { settings, share: settings === 1 ? Number(holds(number)) : 0.43, holds: holds(number), found_least: number ?? 8, found_largest: number === 6 ? 6.5 : number ?? 8 });
-  const indices = (number) => (settings < 50 ? {} : { "index.bearing_length_mm": null, "index.coupler_damping_ratio": number === 2 ? 0.25 : 0.019,
-    "index.restitution": number === 2 ? 0.6 : 0.02 });
-  return [1, 2, 3, 4, 5, 6, 7, null].map((number) => ({ statement: `statement_${number}`, number, text: `ratio ${number}`, paper: number === 2 ? 8.5 : null,
-    ...found(number), ...indices(number) }));
-}
-
-/** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep, the window's width */
-async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, width = 1360, isSchemaGone = false, isAway = false } = {}) {
-  const page = await visit("#/wear", { viewport: { width, height: 1000 } });
-  if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
-  const count = (state) => rows.filter((each) => each.state === state).length;
-  const counts = { queued: 0, running: 0, succeeded: count("succeeded"), failed: count("failed"), cancelled: 0, total: rows.length };
-  const sweep = { id: "swp_given", name: "given", state: "succeeded", counts, progress: 1, eta_s: null, axes, request: { parameters } };
-  const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
-  await give("**/v1/sweeps/swp_given", () => ({ ...sweep, ...more }));
-  await give("**/v1/sweeps/swp_given/paper**", () => paperRows(1));
-  await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
-  if (isAway) await page.route(reasons, (route) => route.abort());
-  await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
-  await page.locator(".chart canvas").nth(2).waitFor();
-  return page;
-}
-
-/** What ECharts has made of a chart: the ends of its axes, its title, and the numbers of its lines. */
-function drawn(page, place) {
-  return page.locator(".chart").nth(place).evaluate(async (element) => {
-    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
-    const model = getInstanceByDom(element).getModel();
-    const axis = (kind) => model.queryComponents({ mainType: kind }).map(({ option, axis: { scale } }) => ({ type: option.type, name: option.name, ends: scale.getExtent() }));
-    return { x: axis("xAxis"), y: axis("yAxis"), parallel: axis("parallelAxis"), titles: model.queryComponents({ mainType: "title" }).map(({ option }) => option.text),
-      colours: model.queryComponents({ mainType: "visualMap" }).map(({ option }) => [option.min, option.max]), series: model.getSeries().map(({ option }) => option.data), said: element.getAttribute("aria-label") };
-  });
-}
 
 test("values that differ in their eighth digit are drawn as equal", async () => {
   const page = await visitRows(["clearance_mm", "coupler"], [[0, "rigid", 38.9], [0, "flexible", 38.9000004], [1, "rigid", 38.9000001], [1, "flexible", 38.9000003]]
@@ -146,10 +100,10 @@ test("what a chart averages over, and of which metric, stands in it", async () =
   await leave(page);
 });
 
-test("the names of all lines stand above them, and in the saved picture", async () => {
+test("what tells lines apart stands above them, and in the saved picture", async () => {
   const rows = [5, 10, 12].flatMap((velocity) => ["rigid", "flexible"].flatMap((coupler) => [0, 1].map((clearance) =>
     row(`${velocity}${coupler}${clearance}`, { clearance_mm: clearance, crank_velocity_rad_s: velocity, coupler, [metric]: velocity + clearance }))));
-  const names = [5, 10, 12].flatMap((velocity) => ["rigid", "flexible"].map((coupler) => `${velocity} rad/s, ${coupler}`));
+  const names = ["Crank velocity [rad/s]", "5", "10", "12", "rigid", "flexible"];
   for (const width of [1440, 390]) {
     const page = await visitRows(["clearance_mm", "crank_velocity_rad_s", "coupler"], rows, { query: "?x=clearance_mm&y=crank_velocity_rad_s&panel=coupler", width });
     const [type, bottom, top] = await page.locator(".chart").nth(1).evaluate(async (element) => {
@@ -196,7 +150,7 @@ test("the paper's statements over many settings tell in how many they hold, and 
 test("more lines than are drawn are counted", async () => {
   const rows = Array.from({ length: 40 }, (_, k) => [0, 1].map((x) => row(`${k}_${x}`, { x_mm: x, kind: `kind ${k}`, [metric]: k + x }))).flat();
   const page = await visitRows(["x_mm", "kind"], rows, { query: "?x=x_mm&y=kind" });
-  assert.deepEqual((await drawn(page, 1)).titles, ["The first 30 of 40 series: choose fewer values, or another axis."]);
+  assert.deepEqual((await drawn(page, 1)).titles, ["12 of 40 curves, evenly spread, with the one of the largest value."]);
   await leave(page);
 });
 

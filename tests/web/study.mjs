@@ -104,7 +104,7 @@ test("brushing an axis of the parallel coordinates selects jobs everywhere", asy
   await leave(page);
 });
 
-test("another sweep stands beside it, dashed", async () => {
+test("another sweep stands beside it", async () => {
   const other = await runSweep({ name: "denser", sweep: { clearance_mm: [0, 0.1, 0.25, 0.4, 0.5] } }, 120);
   const page = await visit(`#/sweeps/${study.id}?x=clearance_mm&y=coupler`);
   await page.getByLabel("Compare with").selectOption(other.id);

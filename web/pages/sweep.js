@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findAnalysis, findResults, findSweep, listSweeps, parameterSchema, resultsUrl,
-  retrySweep } from "/core/api.js";
+import { cancelSweep, findAnalysis, findResults, findSweep, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
-import { choice, h, notify, setSeen } from "/core/dom.js";
-import { plural, span, titleOf } from "/core/format.js";
-import { quantityChoice } from "/core/quantities.js";
+import { h, notify, setSeen } from "/core/dom.js";
+import { plural, span } from "/core/format.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, summaryOf } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
-import { metricsOf, usualMetric, valuesOf } from "/study/data.js";
+import { curveChoice } from "/study/curve_choice.js";
+import { metricsOf } from "/study/data.js";
 import { Failures } from "/study/failures.js";
+import { drawHeadlines } from "/study/headlines.js";
 import { heatMap } from "/study/heat_map.js";
 import { linesChart } from "/study/lines.js";
 import { logBoxes } from "/study/log_axes.js";
 import { parallelChart, parallelNote } from "/study/parallel.js";
+import { scatterChart, scatterChoice } from "/study/scatter.js";
 import { Selection } from "/study/selection.js";
+import { drawPickers } from "/study/sweep_pickers.js";
 import { studyBadge } from "/study/sweep_row.js";
+import { queryOf, viewFrom } from "/study/sweep_view.js";
 import { ResultTable } from "/study/table.js";
 
-const mostInAddress = 20;
 const reloadMs = 1500;
 const lookMs = 4000;
 const tell = (text) => text && notify(text, "trouble");
@@ -41,7 +43,7 @@ export class SweepPage {
   selection = new Selection();
   failures = new Failures();
   /** @type {{ id: string, name: string, axes: string[], rows: Api.Row[] } | null} */
-  others = null;  // what lies beside it, dashed
+  others = null;  // what lies beside it, thin and with hollow marks
   /** @type {(Chart | null)[]} */
   charts = [];
   status = h("p", { role: "status" });
@@ -51,6 +53,8 @@ export class SweepPage {
   heat = h("div", { class: "chart tall" });
   lines = h("div", { class: "chart tall" });
   parallel = h("div", { class: "chart tall" });
+  scatter = h("div", { class: "chart tall" });
+  headlines = h("ul", { class: "headlines card", hidden: true });
   help = h("p", { class: "quiet small" });
   optimise = h("a", { class: "button" }, "Optimise");
   isFollowed = false;
@@ -78,31 +82,28 @@ export class SweepPage {
     this.signal = signal;
     this.axes = sweep.axes;
     this.metrics = metricsOf(rows, this.axes);
-    const varied = [...this.axes].sort((a, b) => valuesOf(rows, b).length - valuesOf(rows, a).length);
-    /** @type {(key: string, allowed: string[], otherwise?: string) => string} */
-    const pick = (key, allowed, otherwise) => allowed.find((each) => each === query.get(key)) ?? otherwise ?? "";
-    this.view = { metric: pick("metric", this.metrics, usualMetric(this.metrics, rows, sweep)),
-      x: pick("x", this.axes, varied[0] ?? "job_id"),
-      y: pick("y", this.axes, query.has("x") ? "" : varied[1]),
-      panel: pick("panel", this.axes, query.has("x") ? "" : varied[2]),
-      xScale: pick("x_scale", ["linear"]), metricScale: pick("metric_scale", ["log"]) };
+    this.view = viewFrom(query, this);
     this.selection.set((query.get("jobs") ?? "").split(",").filter(Boolean));
     this.makeButtons();
     this.paper = this.#bearsOnPaper() ? h("p", { class: "unseen" }, "The paper's statements") : null;
     this.table = new ResultTable(this);
     this.logs = logBoxes(this, () => this.changed());
+    this.curves = curveChoice(this, () => this.changed());
+    this.scatterChoice = scatterChoice(this, () => this.changed());
   }
 
   parts() {
     document.title = `RPSUP: ${this.sweep.name || this.sweep.id}`;
     this.drawHead();
-    this.drawPickers();
+    this.drawLinks();
+    drawPickers(this);
     return [
       h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id, " ", studyBadge(this.sweep)), this.status, this.paper),
-        this.buttons), this.pickers, this.chosen,
+        this.buttons), this.pickers, this.headlines, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0),
-        this.card("Lines", this.lines, 1, { tools: this.logs.element })),
+        this.card("Lines", this.lines, 1, { tools: [this.logs.element, this.curves.element] })),
       this.card("Parallel coordinates", this.parallel, 2, { help: this.help }),
+      this.card("Scatter", this.scatter, 3, { tools: [this.scatterChoice.element] }),
       h("section", { class: "card" }, h("h2", {}, "Results"), this.table.element)];
   }
 
@@ -110,13 +111,13 @@ export class SweepPage {
    * @param {string} title
    * @param {HTMLElement} element
    * @param {number} index
-   * @param {{ help?: HTMLElement, tools?: HTMLElement }} more
+   * @param {{ help?: HTMLElement, tools?: HTMLElement[] }} more
    */
-  card(title, element, index, { help, tools } = {}) {
+  card(title, element, index, { help, tools = [] } = {}) {
     const save = saveButtons(() => this.charts[index],
       () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
     return h("section", { class: "card" },
-      h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, tools, save)), help, element);
+      h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, ...tools, save)), help, element);
   }
 
   start() {
@@ -150,7 +151,7 @@ export class SweepPage {
   /// One in each frame, so that the first is seen before the last is made.
   async makeCharts() {
     for (const { make, element } of [{ make: heatMap, element: this.heat }, { make: linesChart, element: this.lines },
-      { make: parallelChart, element: this.parallel }]) {
+      { make: parallelChart, element: this.parallel }, { make: scatterChart, element: this.scatter }]) {
       await new Promise(requestAnimationFrame);
       if (this.signal.aborted) return;
       try {
@@ -212,7 +213,7 @@ export class SweepPage {
 
   async learnFailures() {
     try {
-      if (await this.failures.learn(this.sweep.id, this.rows, tell, this.signal)) this.table.draw();
+      if (await this.failures.learn(this.sweep.id, this.rows, tell, this.signal)) this.drawTexts();
     } catch (error) {
       if (error.name !== "AbortError") tell(error.message);
     }
@@ -241,17 +242,17 @@ export class SweepPage {
   }
 
   drawTexts() {
+    drawHeadlines(this.headlines, this);
     this.table.draw();
     this.logs.draw();
+    this.curves.draw();
+    this.scatterChoice.draw();
     this.help.textContent = "Drag along an axis to select jobs; click the axis to clear its selection. "
       + parallelNote(this);
   }
 
   changed() {
-    const { metric, x, y, panel, xScale, metricScale } = this.view;
-    const jobs = this.selection.size <= mostInAddress ? this.selection.ids.join(",") : "";
-    rememberQuery({ metric, x, y, panel, x_scale: xScale === "linear" ? xScale : "",
-      metric_scale: metricScale === "log" ? metricScale : "", jobs, with: this.others?.id });
+    rememberQuery({ ...queryOf(this.view, this.selection.ids), with: this.others?.id });
     this.drawChosen();
     this.drawLinks();
     this.drawAll();
@@ -283,32 +284,9 @@ export class SweepPage {
       h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Duplicate"));
   }
 
-  drawPickers() {
-    // A scale was chosen for the axis or the metric that it stood at.
-    const scales = { x: { xScale: "" }, metric: { metricScale: "" } };
-    const set = (key) => (value) => { Object.assign(this.view, { [key]: value, ...scales[key] }); this.changed(); };
-    this.drawLinks();
-    const named = (names) => names.map((name) => [name, titleOf(name)]);
-    const axes = named(this.axes);
-    this.pickers.replaceChildren(quantityChoice("Metric", "metrics", this.metrics, this.view.metric, set("metric")),
-      ...(this.axes.length === 0 ? [] : [choice("x axis", axes, this.view.x, set("x"))]),
-      choice("y axis / series", [["", "none"], ...axes], this.view.y, set("y")),
-      choice("Facet by", [["", "none"], ...axes], this.view.panel, set("panel")), this.compare);
-    this.offerComparison();
-  }
-
   /// An optimisation begins with the metric that is looked at.
   drawLinks() {
     this.optimise.href = routeTo("optimisations", "new", { sweep: this.sweep.id, metric: this.view.metric });
-  }
-
-  async offerComparison() {
-    const page = await listSweeps({ limit: 100 }, this.signal).catch(() => null);
-    const alike = (page?.items ?? []).filter(({ id, axes }) => id !== this.sweep.id && axes.includes(this.view.x));
-    if (alike.length === 0) return;
-    this.compare.replaceChildren(
-      choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], this.others?.id ?? "",
-        (id) => this.compareWith(id).then(() => this.changed())));
   }
 
   /** @param {string} id */

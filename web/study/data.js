@@ -46,14 +46,29 @@ function compare(a, b) {
 /** @type {WeakMap<Api.Row[], Map<string, (string | number)[]>>} */
 const known = new WeakMap();  // by rows, then by axis: many parts ask for the same
 
-/// The different values of an axis, in order. An object or list stands as its JSON.
+/// The different values of an axis: numbers from the least to the largest, anything else in the order that was asked for,
+/// which is that of the jobs. An object or list stands as its JSON; a missing value is the last one.
 /** @param {Api.Row[]} rows  @param {string} axis */
 export function valuesOf(rows, axis) {
   const ofRows = known.get(rows) ?? new Map();
   known.set(rows, ofRows);
-  const values = ofRows.get(axis) ?? [...new Set(rows.map((row) => valueOf(row, axis)))].sort(compare);
+  const values = ofRows.get(axis) ?? inOrder([...new Set(rows.map((row) => valueOf(row, axis)))]);
   ofRows.set(axis, values);
   return values;
+}
+
+/** @param {(string | number)[]} values */
+function inOrder(values) {
+  const given = values.filter((value) => value !== none);
+  const sorted = given.every((value) => typeof value === "number") ? given.sort(compare) : given;
+  return given.length < values.length ? [...sorted, none] : sorted;
+}
+
+/// True of an axis whose values are numbers and differ: one with a scale.
+/** @param {Api.Row[]} rows  @param {string} axis */
+export function hasScale(rows, axis) {
+  const values = valuesOf(rows, axis).filter((value) => value !== none);
+  return values.length > 1 && values.every((value) => typeof value === "number");
 }
 
 /** @param {Api.Row} row  @param {string} axis  @returns {string | number} */

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// A metric over one axis, a line for each value of a second one (and of the panels' axis), with the spread of what
-// lies together.
+// A metric over one axis, a curve for each value of a second one (and of the panels' axis), with the spread of what
+// lies together. Numbers are told apart by a colour scale, words by line style.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
-import { colour, lineColour } from "/core/theme.js";
-import { averagedAxes, groupBy, none, valuesOf } from "/study/data.js";
+import { colour } from "/core/theme.js";
+import { colourBar, colourBarHeight } from "/study/colour_bar.js";
+import { curvesOf, drawnCurves, looksOf, mostCurves, nameOfCurve, rolesOf } from "/study/curves.js";
+import { averagedAxes, valuesOf } from "/study/data.js";
 import { legendOf } from "/study/legend.js";
 import { chosenLogs } from "/study/log_axes.js";
 import { whyEmpty, withoutValue } from "/study/missing.js";
 import { fittedAxis } from "/study/span.js";
 
-const mostLines = 30;
 const fewPoints = 400;  // whose marks do not hide the lines
 const widthOfLetter = 6.3;  // of the notes, in pixels: about
-const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
+const left = 75;
+
+/** @typedef {import("/study/curves.js").Curve & { name: string, label: string, colour: string, pattern: string | number[], symbol: string }} DrawnCurve */
 
 /** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
 export function linesChart(element, sweep, signal) {
@@ -31,27 +34,40 @@ export function linesChart(element, sweep, signal) {
   return made;
 }
 
+/// Curves of the sweep and of the one beside it: all of them, and those that are drawn.
+/** @param {SweepPage} sweep */
+export function curvesOfSweep(sweep) {
+  const { rows, view, others } = sweep;
+  const roles = rolesOf(sweep);
+  const own = curvesOf(rows, view, roles);
+  const theirs = others ? curvesOf(others.rows, view, roles, others.name) : [];
+  const most = others ? mostCurves / 2 : mostCurves;
+  const drawn = drawnCurves(own, view.curves, most);
+  const alike = theirs.filter(({ key }) => drawn.some((curve) => curve.key === key)).map(({ key }) => key);
+  return { roles, own, theirs, most, drawn, drawnTheirs: drawnCurves(theirs, alike, most) };
+}
+
 /** @param {SweepPage} sweep  @param {number} width */
 function planOf(sweep, width) {
   const { rows, view, selection, others } = sweep;
+  const { roles, own, theirs, drawn, drawnTheirs } = curvesOfSweep(sweep);
+  const lines = dressed([...drawn, ...drawnTheirs], sweep, roles);
+  const groups = lines.map((line) => line.groups);
+  if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(sweep)) };
   const xs = valuesOf([...rows, ...(others?.rows ?? [])], view.x);
   const numeric = xs.every((x) => typeof x === "number");
-  const [own, theirs] = [linesOf(rows, view, ""), others ? linesOf(others.rows, view, others.name) : []];
-  const all = [...own, ...theirs];
-  const lines = all.slice(0, mostLines);
   const few = lines.reduce((sum, line) => sum + line.groups.length, 0) <= fewPoints;
   const at = (value) => (numeric ? value : xs.indexOf(value));
   const logs = chosenLogs(sweep);
   const x = numeric ? { type: logs.x ? "log" : "value", scale: true }
     : { type: "category", data: xs.map((value) => number(value, 4)) };
-  const groups = lines.map((line) => line.groups);
-  if (lines.length === 0) return { groups, option: nothingYet(whyEmpty(sweep)) };
-  const notes = notesOf(sweep, own, theirs);
+  const notes = notesOf(sweep, [...own, ...theirs], lines);
   const noteLines = notes.reduce((sum, note) => sum + Math.ceil((note.length * widthOfLetter) / width), 0);
-  const legend = legendOf(lines.map(({ name }) => name), width);
+  const key = keyAbove(sweep, roles, lines, width);
   return { groups, option: {
-    grid: { left: 75, right: 20, top: 16 + legend.height, bottom: 50 + 18 * noteLines },
-    legend: legend.option,
+    aria: { enabled: true, label: { description: spoken(sweep, lines, [...own, ...theirs].length) } },
+    grid: { left, right: 20, top: 16 + key.height, bottom: 50 + 18 * noteLines },
+    legend: key.legend, graphic: key.graphic,
     // A screen reader is told a chart's title, also where it is not shown: without a note there must be none.
     title: { show: notes.length > 0, text: notes.join("\n"), bottom: 0, left: 0,
       textStyle: { width, overflow: "break", fontSize: 12, lineHeight: 18, fontWeight: "normal",
@@ -61,10 +77,48 @@ function planOf(sweep, width) {
     yAxis: { name: titleOf(view.metric), nameLocation: "middle", nameGap: 50,
       ...(logs.metric ? { type: "log", ...logLook() } : { ...fittedAxis, ...axisLook() }) },
     series: lines.flatMap((line, index) =>
-      [...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []),
-        lineSeries(line, index, at, few),
-      ...chosenSeries(line, index, at, selection)]),
+      // The legend shows the first one of a name: the line.
+      [lineSeries(line, index, at, few),
+        ...(line.groups.some((group) => group.count > 1) ? [spreadSeries(line, index, at)] : []),
+        ...chosenSeries(line, index, at, selection)]),
   } };
+}
+
+/// Curves with their looks and two names: that of the curve, and that of its entry in the legend.
+/** @param {import("/study/curves.js").Curve[]} curves  @param {SweepPage} sweep  @param {ReturnType<typeof rolesOf>} roles */
+function dressed(curves, { rows, view, others }, roles) {
+  const lookOf = looksOf([...rows, ...(others?.rows ?? [])], roles);
+  const inLegend = (curve) => (roles.isScale
+    ? nameOfCurve({ ...curve, values: curve.values.slice(1) }, { ...roles, colour: roles.style, style: "" }) : nameOfCurve(curve, roles));
+  return curves.map((curve) => ({ ...curve, ...lookOf(curve), name: nameOfCurve(curve, roles) || nameOf(view.metric),
+    label: inLegend(curve) || nameOf(view.metric) }));
+}
+
+/// What tells the curves apart: a colour bar for numbers, a legend for the rest.
+/** @param {SweepPage} sweep  @param {ReturnType<typeof rolesOf>} roles  @param {DrawnCurve[]} lines  @param {number} width */
+function keyAbove({ rows, others }, roles, lines, width) {
+  const names = [...new Set(lines.map(({ label }) => label))];
+  const barHeight = roles.isScale ? colourBarHeight : 0;
+  const legend = legendOf(names, width);
+  const hasLegend = !roles.isScale || names.length > 1;
+  const numbers = (values) => values.filter((value) => typeof value === "number");
+  return { height: barHeight + (hasLegend ? legend.height : 0),
+    legend: { ...legend.option, show: hasLegend, top: barHeight, data: names.map((name) => entryOf(name, roles, lines)) },
+    graphic: roles.isScale ? colourBar(roles.colour, numbers(valuesOf([...rows, ...(others?.rows ?? [])], roles.colour)),
+      numbers(lines.map(({ values }) => values[0])), width, left) : [] };
+}
+
+/// Entry of the legend: in the colour of the text where colours stand for numbers.
+function entryOf(name, { isScale }, lines) {
+  if (!isScale) return { name };
+  const { pattern } = lines.find(({ label }) => label === name);
+  return { name, itemStyle: { color: colour("text") }, lineStyle: { color: colour("text"), type: pattern, width: 2 } };
+}
+
+/// The chart in words.
+function spoken({ view }, lines, count) {
+  return `${nameOf(view.metric)} over ${nameOf(view.x).toLowerCase()}: ${lines.length} of ${plural(count, "curve")}: `
+    + `${lines.map(({ name }) => name).join("; ")}.`;
 }
 
 /// Decades as 1e−6, not as 0.000001.
@@ -73,56 +127,35 @@ function logLook() {
   return { ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } };
 }
 
-/// Notes below the lines: averages, missing values, lines left out.
-/** @param {SweepPage} sweep */
-function notesOf(sweep, own, theirs) {
-  const averagedIn = (lines, drawn) => averagedAxes(lines.flatMap((line) => line.groups), drawn);
+/// Notes below the lines: averages, missing values, curves left out.
+/** @param {SweepPage} sweep  @param {import("/study/curves.js").Curve[]} all  @param {DrawnCurve[]} drawn */
+function notesOf(sweep, all, drawn) {
+  const averagedIn = (curves, rows) => averagedAxes(curves.flatMap((curve) => curve.groups), rows);
+  const [own, theirs] = [all.filter((curve) => !curve.sweep), all.filter((curve) => curve.sweep)];
   const averaged = new Set([...averagedIn(own, sweep), ...averagedIn(theirs, { ...sweep.others, view: sweep.view })]);
-  const count = own.length + theirs.length;
   const without = withoutValue(sweep).length;
+  const which = sweep.view.curves ? "as chosen" : "evenly spread, with the one of the largest value";
   return [averaged.size > 0
     && `Mean over ${[...averaged].map((axis) => nameOf(axis).toLowerCase()).join(", ")}; bars: range.`,
     without > 0 && `${plural(without, "computed job")} without a value: the table says why.`,
-    count > mostLines && `The first ${mostLines} of ${count} series: choose fewer values, or another axis.`].filter(
-      Boolean);
-}
-
-/// Lines with a value at least; where jobs have none, a group without a mean stands in its place.
-/// @param name  of the sweep, where it is not the one that is looked at
-/** @param {Api.Row[]} rows  @param {SweepPage["view"]} view  @param {string} name */
-function linesOf(rows, view, name) {
-  const keys = [view.y, view.panel].filter(Boolean);
-  /** @type {Map<string, Group[]>} */
-  const byLine = new Map();
-  for (const group of groupBy(rows, [...keys, view.x], view.metric)) {
-    const key = JSON.stringify(group.values.slice(0, -1));
-    const line = byLine.get(key) ?? [];
-    byLine.set(key, line);
-    line.push(group);
-  }
-  const nameOfLine = ({ values }) => [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))),
-    name].filter(Boolean).join(", ") || nameOf(view.metric);
-  const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
-  const x = (group) => order.get(group.values.at(-1));
-  const drawn = [...byLine.values()].filter((groups) => groups.some(hasValue));
-  return drawn.map((groups) =>
-    ({ name: nameOfLine(groups[0]), dashed: name !== "", groups: groups.sort((a, b) => x(a) - x(b)) }));
+    all.length > drawn.length && `${drawn.length} of ${all.length} curves, ${which}.`].filter(Boolean);
 }
 
 const hasValue = (group) => group?.count > 0;
 
 /// Line with gaps where values are missing. A value between two gaps is marked even among many points, for it has
 /// no line.
-function lineSeries({ name, dashed, groups }, index, at, few) {
-  const symbol = symbols[index % symbols.length];
+/** @param {DrawnCurve} curve  @param {number} index  @param {(value: any) => any} at  @param {boolean} few */
+function lineSeries({ label, sweep, groups, colour: color, pattern, symbol: mark }, index, at, few) {
+  const symbol = sweep ? `empty${mark[0].toUpperCase()}${mark.slice(1)}` : mark;
   const isAlone = (place) => !hasValue(groups[place - 1]) && !hasValue(groups[place + 1]);
   const dataOf = (group, place) => {
     const value = [at(group.values.at(-1)), group.mean ?? "-"];
     return !few && isAlone(place) ? { value, symbol } : value;
   };
-  return { id: `line:${index}`, name, type: "line", symbol: few ? symbol : "none", showAllSymbol: true, symbolSize: 8,
-    color: lineColour(index),
-    lineStyle: { type: dashed ? "dashed" : "solid" }, data: groups.map(dataOf) };
+  return { id: `line:${index}`, name: label, type: "line", symbol: few ? symbol : "none", showAllSymbol: true,
+    symbolSize: 6, color, emphasis: { focus: "series" },
+    lineStyle: { type: pattern, width: sweep ? 1 : 2 }, data: groups.map(dataOf) };
 }
 
 /// Rings around what is selected; nothing, where nothing is.
@@ -130,7 +163,7 @@ function chosenSeries(line, index, at, selection) {
   const chosen = selection.size === 0 ? []
     : line.groups.filter((group) => hasValue(group) && group.jobs.some((job) => selection.has(job)));
   if (chosen.length === 0) return [];
-  return [{ id: `chosen:${index}`, name: line.name, type: "scatter", silent: true, symbol: "circle", symbolSize: 15,
+  return [{ id: `chosen:${index}`, name: line.label, type: "scatter", silent: true, symbol: "circle", symbolSize: 15,
     z: 5,
     itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 },
     data: chosen.map((group) => [at(group.values.at(-1)), group.mean]) }];
@@ -145,7 +178,7 @@ function textOf({ name, groups }, index, view) {
 
 /// From the least to the largest of what lies together, as an upright bar.
 function spreadSeries(line, index, at) {
-  return { id: `spread:${index}`, name: line.name, type: "custom", silent: true, color: lineColour(index),
+  return { id: `spread:${index}`, name: line.label, type: "custom", silent: true, color: line.colour,
     data: line.groups.filter((group) => group.count > 1)
       .map((group) => [at(group.values.at(-1)), group.min, group.max]),
     encode: { x: 0, y: [1, 2] },

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a sweep of hundreds of jobs: which curves it draws and how, its headlines, its scatter.   node sweep_page.mjs URL FOLDER
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { drawn, force, metric, row, visitRows } from "./given.mjs";
+import { endVisits, expectAccessible, expectNoSideways, leave, picture, textOf } from "./visitor.mjs";
+
+after(endVisits);
+const axes = ["crank_velocity_rad_s", "clearance_mm", "coupler"];
+const velocities = Array.from({ length: 25 }, (_, k) => 4 + k / 2);
+const clearances = Array.from({ length: 12 }, (_, k) => Number((0.05 * k).toFixed(2)));
+
+/** 600 jobs, of which the one at 10 rad/s, 0.35 mm, flexible has the largest peak. */
+const rows = velocities.flatMap((velocity) => clearances.flatMap((clearance) => ["rigid", "flexible"].map((coupler) => {
+  const isLargest = velocity === 10 && clearance === 0.35 && coupler === "flexible";
+  const value = isLargest ? 1000 : velocity * (1 + clearance) + (coupler === "rigid" ? 0 : 0.5);
+  return row(`${velocity}_${clearance}_${coupler}`, { crank_velocity_rad_s: velocity, clearance_mm: clearance, coupler, [metric]: value,
+    peak_slider_acceleration_time_s: 0.25, [force]: clearance === 0 ? null : 10 * value });
+})));
+
+/** Its lines: of each curve the name in the legend, colour, line style, mark and largest value. */
+function curves(page) {
+  return page.locator(".chart").nth(1).evaluate(async (element) => {
+    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
+    return getInstanceByDom(element).getModel().getSeries().filter(({ id }) => id.startsWith("line:"))
+      .map(({ option }) => ({ name: option.name, colour: option.color, pattern: option.lineStyle.type, symbol: option.symbol,
+        largest: Math.max(...option.data.map((point) => (point.value ?? point)[1])) }));
+  });
+}
+
+test("of 24 curves 12 are drawn: numbers by a colour scale, words by line style in the order asked, the largest peak among them", async () => {
+  const page = await visitRows(axes, rows);
+  const shown = await curves(page);
+  assert.equal(shown.length, 12);
+  assert.equal(shown.filter(({ largest }) => largest === 1000).length, 1);
+  assert.deepEqual(shown.slice(0, 2).map(({ name, pattern }) => [name, pattern]), [["rigid", "solid"], ["flexible", "dashed"]]);
+  assert.equal(new Set(shown.map(({ colour }) => colour)).size, 6, "both couplers of a clearance in its colour");
+  assert.equal(new Set(shown.map(({ pattern }) => pattern)).size, 2);
+  assert.deepEqual((await drawn(page, 1)).titles, ["12 of 24 curves, evenly spread, with the one of the largest value."]);
+  const svg = await textOf(page, () => page.getByRole("button", { name: "SVG" }).nth(1).click());
+  for (const text of ["Clearance [mm]", "0", "0.35", "0.55", "rigid", "flexible"]) assert.ok(svg.text.includes(`>${text}<`), text);
+  assert.ok(!svg.text.includes(">0.05<"), "a tick at what is drawn only");
+  await expectAccessible(page);
+  await picture(page, "six_hundred", { fullPage: true });
+  await leave(page);
+});
+
+test("the curves are chosen, twelve at most, and stand in the address", async () => {
+  const page = await visitRows(axes, rows);
+  await page.getByText("Curves: 12 of 24").click();
+  const box = (name) => page.getByRole("checkbox", { name, exact: true });
+  assert.ok(await box("0.05 mm, rigid").isDisabled());
+  await page.getByText("At most 12 at once: take one out for another.").waitFor();
+  await box("0 mm, flexible").uncheck();
+  await page.getByText("Curves: 11 of 24").waitFor();
+  await box("0.05 mm, rigid").check();
+  await page.getByText("Curves: 12 of 24").waitFor();
+  await expectAccessible(page);
+  await picture(page, "curves_chosen");
+  assert.deepEqual((await drawn(page, 1)).titles, ["12 of 24 curves, as chosen."]);
+  const again = await visitRows(axes, rows, { query: new URL(page.url()).hash.replace(/^[^?]*/, "") });
+  assert.deepEqual(await curves(again), await curves(page));
+  await leave(again);
+  await page.getByLabel("Search curves").fill("0.55");
+  assert.equal(await page.locator(".menu .list input").count(), 2);
+  await page.getByRole("button", { name: "Evenly spread" }).click();
+  await page.waitForURL((address) => !address.href.includes("curves="));
+  // What was chosen for an axis is forgotten with it.
+  await page.getByLabel("Search curves").fill("");
+  await box("0 mm, flexible").uncheck();
+  await page.getByRole("combobox", { name: "Facet by" }).selectOption("");
+  await page.waitForURL((address) => !address.href.includes("curves="));
+  assert.equal((await curves(page)).length, 12);
+  await leave(page);
+});
+
+test("another sweep has thin lines and hollow marks, of the same curves", async () => {
+  const page = await visitRows(axes, rows);
+  await page.route("**/v1/sweeps/swp_other", (route) => route.fulfill({ json: { id: "swp_other", name: "other", axes } }));
+  await page.route("**/v1/sweeps/swp_other/results", (route) => route.fulfill({ json: rows.map((each) => ({ ...each, [metric]: each[metric] + 1 })) }));
+  await page.evaluate(() => { location.hash = "#/sweeps/swp_given?with=swp_other"; });
+  await page.waitForFunction(() => document.querySelectorAll(".chart canvas").length > 3);
+  await page.waitForTimeout(300);
+  const shown = await curves(page);
+  const theirs = shown.filter(({ name }) => name.endsWith("other"));
+  assert.deepEqual([shown.length, theirs.length], [12, 6]);
+  assert.ok(theirs.every(({ symbol }) => symbol.startsWith("empty")));
+  assert.deepEqual(theirs.map(({ colour, pattern }) => [colour, pattern]), shown.slice(0, 6).map(({ colour, pattern }) => [colour, pattern]));
+  await picture(page, "beside");
+  await leave(page);
+});
+
+test("the headlines tell the largest and the least value with their parameters, and why jobs failed", async () => {
+  const failed = [0, 1, 2].map((k) => ({ job_id: `job_f${k}`, state: "failed", crank_velocity_rad_s: 20, clearance_mm: k, coupler: "rigid", [metric]: null }));
+  const failures = failed.map(({ job_id: id }, k) => ({ job_id: id, error_reason: k === 0 ? "time_limit" : "step_limit", error_detail: "" }));
+  const page = await visitRows(axes, [...rows, ...failed], { failures });
+  const lines = page.locator(".headlines li");
+  await page.getByText("3 jobs of 603 failed: 2 by step_limit, 1 by time_limit.").waitFor();
+  assert.deepEqual((await lines.allTextContents()).slice(0, 3), [
+    "Largest peak slider acceleration: 1000 m/s² at 0.25 s of the run, crank velocity 10 rad/s, clearance 0.35 mm, coupler flexible (job …xible)",
+    "Least: 4 m/s² at 0.25 s of the run, crank velocity 4 rad/s, clearance 0 mm, coupler rigid (job …rigid)",
+    "One run each: how much the values scatter is not known."]);
+  assert.equal(await lines.first().getByRole("link").getAttribute("href"), "#/jobs/job_10_0.35_flexible");
+  await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
+  assert.match(await lines.first().textContent(), /^Largest peak contact force: 10000 N, crank velocity 10 rad\/s/);
+  await expectAccessible(page);
+  await leave(page);
+});
+
+test("the headlines tell how far replicates differ, where there are some", async () => {
+  const values = [[10, 10.1], [20, 25]];
+  const replicated = values.flatMap((pair, k) => pair.map((value, replicate) => row(`${k}${replicate}`, { clearance_mm: k, replicate, [metric]: value })));
+  const page = await visitRows(["clearance_mm"], replicated);
+  await page.getByText("Replicates of 2 settings differ by at most 22 % of their mean (5 m/s², 2 runs, clearance 1 mm, job …ob_10)").waitFor();
+  assert.equal(await page.getByText("One run each").count(), 0);
+  await leave(page);
+});
+
+test("any number stands over any other in the scatter, whose click selects", async () => {
+  const page = await visitRows(axes, rows);
+  const scatter = page.locator(".chart").nth(3);
+  await scatter.locator("canvas").waitFor();
+  const points = async () => (await drawn(page, 3)).series[0];
+  assert.equal((await points()).length, 550, "jobs without a contact force have no place");
+  await page.getByRole("combobox", { name: "Along" }).selectOption("clearance_mm");
+  await page.getByRole("combobox", { name: "Upwards" }).selectOption("crank_velocity_rad_s");
+  await page.getByRole("combobox", { name: "Colour" }).selectOption("coupler");
+  await page.waitForURL(/scatter_x=clearance_mm&scatter_y=crank_velocity_rad_s&scatter_colour=coupler/);
+  const { series, x, y } = await drawn(page, 3);
+  assert.deepEqual([series.length, series[0].length, series[1].length], [2, 300, 300]);
+  assert.deepEqual([x[0].name, y[0].name], ["Clearance [mm]", "Crank velocity [rad/s]"]);
+  await page.getByRole("combobox", { name: "Along" }).selectOption("coupler");
+  assert.equal((await drawn(page, 3)).x[0].type, "category");
+  await page.getByRole("combobox", { name: "Along" }).selectOption("clearance_mm");
+  const [px, py] = await scatter.evaluate(async (element) => {
+    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
+    return getInstanceByDom(element).convertToPixel({ seriesIndex: 0 }, [0.25, 10]);
+  });
+  await scatter.click({ position: { x: px, y: py } });
+  await page.getByText("1 job selected").waitFor();
+  await page.waitForURL(/jobs=job_10_0\.25_/);
+  await expectAccessible(page);
+  await scatter.scrollIntoViewIfNeeded();
+  await picture(page, "scatter");
+  await leave(page);
+});
+
+test("six hundred jobs are read on a phone, in the dark and on a wide screen", async () => {
+  for (const width of [390, 1280, 1920]) {
+    const page = await visitRows(axes, rows, { width });
+    await page.getByLabel("Theme").selectOption("dark");
+    await expectNoSideways(page);
+    await expectAccessible(page);
+    await picture(page, `six_hundred_${width}`);
+    await leave(page);
+  }
+});
