@@ -105,6 +105,7 @@ set(page_files
   study/candidate_scatter.js
   study/chosen.js
   study/colour_bar.js
+  study/column_choice.js
   study/curve_choice.js
   study/curves.js
   study/data.js
@@ -127,6 +128,8 @@ set(page_files
   study/optimisation_answer.js
   study/optimisation_view.js
   study/parallel.js
+  study/row_filter.js
+  study/row_window.js
   study/scatter.js
   study/selection.js
   study/span.js

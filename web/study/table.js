@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a sweep as a table: sorted by any column, a page at a time.
+// The rows of a sweep as a table: sorted by any column, filtered, with the columns that one wants. Only the rows that
+// are seen are drawn.
 import { h } from "/core/dom.js";
-import { number, titleOf } from "/core/format.js";
+import { number, plural, titleOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
+import { columnChoice } from "/study/column_choice.js";
 import { sortedBy, valueOf, valuesOf } from "/study/data.js";
 import { missingText } from "/study/missing.js";
+import { filterOf } from "/study/row_filter.js";
+import { RowWindow } from "/study/row_window.js";
 
-const pageSize = 50;
+const rowHeight = 36;  // pixels, as in the style sheet
+const widthOfLetter = 9.5;
+const [leastWidth, largestWidth] = [88, 400];
 
 export class ResultTable {
   /// @param noun     for a row
@@ -21,54 +27,91 @@ export class ResultTable {
     this.noun = noun;
     this.titleOf = titleOfColumn;
     this.order = { column: "", descending: false };
-    this.page = 0;
     this.onlySelected = false;
+    /** @type {Map<string, string>} */
+    this.filters = new Map();
+    this.isFiltered = false;
+    this.drawnHead = "";
     this.head = h("tr");
+    this.filterRow = h("tr", { class: "filters" });
     this.body = h("tbody");
-    this.where = h("span", { class: "quiet small" });
-    this.back = h("button", { onclick: () => this.turn(-1) }, "Previous");
-    this.next = h("button", { onclick: () => this.turn(1) }, "Next");
+    this.columns = h("colgroup");
+    this.where = h("span", { class: "quiet small", role: "status" });
+    this.fault = h("p", { class: "trouble small", role: "alert" });
     const only = h("input",
-      { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.page = 0; this.draw(); } });
+      { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.draw(); } });
+    this.filterButton = h("button", { "aria-expanded": "false", onclick: () => this.toggleFilters() }, "Filter");
+    this.choice = columnChoice({ all: () => this.allColumns(), titleOf: this.titleOf, changed: () => this.draw() });
     this.missing = h("p", { class: "quiet small", role: "note" });
+    this.table = h("table", { class: "rows" }, this.columns, h("thead", {}, this.head), this.body);
+    this.scroll = h("div", { class: "scroll rows", tabindex: 0, role: "region", "aria-label": "Results" }, this.table);
+    this.window = new RowWindow(this.scroll, this.body, rowHeight, (row, place) => this.row(row, place));
     this.element = h("div", {}, this.missing,
-      h("p", { class: "actions" }, this.back, this.next, this.where, h("label", {}, only, " Selected only")),
-      h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Results" },
-        h("table", {}, h("thead", {}, this.head), this.body)));
-  }
-
-  turn(by) {
-    this.page += by;
-    this.draw();
+      h("p", { class: "actions" }, this.choice.element, this.filterButton, h("label", {}, only, " Selected only"), this.where),
+      this.fault, this.scroll);
   }
 
   sortBy(column) {
     const again = this.order.column === column;
     this.order = { column, descending: again ? !this.order.descending : false };
-    this.page = 0;
+    this.scroll.scrollTop = 0;
     this.draw();
     /** @type {HTMLElement | null} */
     const heading = this.head.querySelector(`[data-column="${CSS.escape(column)}"]`);
     heading?.focus();
   }
 
-  draw() {
-    const { axes, metrics, view } = this.sweep;
-    const columns = ["state", ...axes,
-      ...(this.sweep.rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
+  toggleFilters() {
+    this.isFiltered = !this.isFiltered;
+    this.filterButton.setAttribute("aria-expanded", String(this.isFiltered));
+    if (!this.isFiltered) this.filters.clear();
+    this.draw();
+    this.filterRow.querySelector("input")?.focus();
+  }
+
+  /// All columns but those of the selection and of the job: state, axes, the metric, other metrics.
+  allColumns() {
+    const { axes, metrics, view, rows } = this.sweep;
+    return ["state", ...axes, ...(rows.some((row) => row.replicate !== undefined) ? ["replicate"] : []),
       view.metric, ...metrics.filter((metric) => metric !== view.metric)];
-    this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"),
-      ...columns.map((column) => this.heading(column)));
+  }
+
+  draw() {
+    this.choice.draw();
+    this.shown = this.choice.shown();
+    this.drawHead();
     this.drawMissing();
     const rows = this.visible();
-    const pages = Math.max(1, Math.ceil(rows.length / pageSize));
-    this.page = Math.min(Math.max(this.page, 0), pages - 1);
-    this.body.replaceChildren(...rows.slice(this.page * pageSize, (this.page + 1) * pageSize)
-      .map((row) => this.row(row, columns)));
-    this.back.disabled = this.page === 0;
-    this.next.disabled = this.page >= pages - 1;
-    this.where.textContent = `Page ${this.page + 1} of ${pages}, ${rows.length.toLocaleString("en")} `
-      + `of ${this.sweep.rows.length.toLocaleString("en")} ${this.noun}s`;
+    this.window.show(rows);
+    this.table.setAttribute("aria-rowcount", String(rows.length + 1));
+    const { length } = this.sweep.rows;
+    this.where.textContent = rows.length === length ? plural(length, this.noun)
+      : `${rows.length.toLocaleString("en")} of ${plural(length, this.noun)}`;
+  }
+
+  drawHead() {
+    this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"),
+      ...(this.shown ?? []).map((column) => this.heading(column)));
+    // Made anew, the field that is typed into would lose the focus.
+    const drawn = JSON.stringify([this.isFiltered, this.shown]);
+    if (drawn === this.drawnHead) return;
+    this.drawnHead = drawn;
+    const widths = (this.shown ?? []).map((column) => this.widthOf(column));
+    this.columns.replaceChildren(...[68, 92, ...widths].map((width) => h("col", { width })));
+    this.table.style.width = `${160 + widths.reduce((sum, width) => sum + width, 0)}px`;
+    this.filterRow.remove();
+    this.filterRow.replaceChildren(h("td", { colspan: 2 }), ...(this.shown ?? []).map((column) => this.filterCell(column)));
+    if (this.isFiltered) this.head.after(this.filterRow);
+  }
+
+  /// Width of a column in pixels: as its longest word or value needs, so that no column moves while others are drawn.
+  /** @param {string} column */
+  widthOf(column) {
+    const values = valuesOf(this.sweep.rows, column);
+    const longest = this.isNumeric(column) ? 0 : Math.max(...values.slice(0, 1000).map((value) => String(value).length));
+    const word = Math.max(...this.titleOf(column).split(" ").map(({ length }) => length));
+    const reason = column === "state" && values.includes("failed") ? largestWidth : 0;
+    return Math.min(largestWidth, Math.max(leastWidth, reason, widthOfLetter * Math.max(longest, word) + 20));
   }
 
   /// Shows why jobs that succeeded have no value of the metric.
@@ -79,13 +122,35 @@ export class ResultTable {
 
   visible() {
     const { rows, selection } = this.sweep;
-    const wanted = this.onlySelected ? rows.filter((row) => selection.has(row.job_id)) : rows;
+    const tests = this.tests();
+    const wanted = rows.filter((row) => (!this.onlySelected || selection.has(row.job_id)) && tests.every((passes) => passes(row)));
     return this.order.column ? sortedBy(wanted, this.order.column, this.order.descending) : wanted;
+  }
+
+  /// Tests of the filters. A faulty one is said, and leaves all rows.
+  tests() {
+    /** @type {string[]} */
+    const faults = [];
+    const tests = [...this.filters].map(([column, text]) => {
+      try {
+        return filterOf(column, text, this.isNumeric(column));
+      } catch (error) {
+        faults.push(`${this.titleOf(column)}: ${error.message}`);
+        return null;
+      }
+    });
+    this.fault.textContent = faults.join(". ");
+    return tests.filter((test) => test !== null);
+  }
+
+  /** @param {string} column */
+  isNumeric(column) {
+    return valuesOf(this.sweep.rows, column).some((value) => typeof value === "number");
   }
 
   /// Numbers stand below each other at their last digit, and their heading there, too.
   lookOf(column) {
-    return valuesOf(this.sweep.rows, column).some((value) => typeof value === "number") ? "number" : null;
+    return this.isNumeric(column) ? "number" : null;
   }
 
   heading(column) {
@@ -98,15 +163,23 @@ export class ResultTable {
         onclick: () => this.sortBy(column) }, `${this.titleOf(column)}${arrow}`));
   }
 
-  /** @param {Api.Row} row  @param {string[]} columns */
-  row(row, columns) {
+  /** @param {string} column */
+  filterCell(column) {
+    const input = h("input", { type: "text", value: this.filters.get(column) ?? "",
+      "aria-label": `Filter ${this.titleOf(column)}`, placeholder: this.isNumeric(column) ? "> 5" : "part of it",
+      oninput: () => { this.filters.set(column, input.value); this.scroll.scrollTop = 0; this.draw(); } });
+    return h("td", {}, input);
+  }
+
+  /** @param {Api.Row} row  @param {number} place */
+  row(row, place) {
     const { selection } = this.sweep;
     const box = h("input",
       { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
     box.checked = selection.has(row.job_id);
-    return h("tr", { class: box.checked ? "selected" : null }, h("td", {}, box),
+    return h("tr", { class: box.checked ? "selected" : null, "aria-rowindex": place + 2 }, h("td", {}, box),
       h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", row.job_id) }, `…${row.job_id.slice(-5)}`)),
-      columns.map((column) => this.cell(row, column)));
+      (this.shown ?? []).map((column) => this.cell(row, column)));
   }
 
   /** @param {Api.Row} row  @param {string} column */
@@ -114,13 +187,14 @@ export class ResultTable {
     const value = valueOf(row, column);
     if (column === "state") return this.stateCell(row);
     const given = this.sweep.axes.includes(column);
-    return h("td", { class: this.lookOf(column) }, number(value, given ? 6 : 4));
+    return h("td", { class: this.lookOf(column) ?? "cut" }, number(value, given ? 6 : 4));
   }
 
   /** @param {Api.Row} row */
   stateCell({ job_id: id, state }) {
     const error = state === "failed" && this.sweep.failures.of(id);
-    return h("td", { class: state },
-      error ? [`${state}: ${error.error_reason}`, h("span", { class: "small reason" }, error.error_detail)] : state);
+    if (!error) return h("td", { class: state }, state);
+    return h("td", { class: `cut ${state}`, title: `${error.error_reason}: ${error.error_detail}` }, `${state}: ${error.error_reason} `,
+      h("span", { class: "reason" }, error.error_detail));
   }
 }
