@@ -20,18 +20,39 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
   const along = rows[0]?.along;
   const drawing = h("div", { class: "chart tall", hidden: !along });
   const reversed = rows.filter((row) => row.reverses_from !== null);
+  const single = rows.filter(isSingle).length;
   const said = reversed.length === 0
     ? "No reversal: the ratio does not cross 1 by more than 0.1 %, the accuracy of peaks."
     : `Reversal: ${reversed.map((row) => reversalOf(row, axes)).join("; ")}.`;
-  element.replaceChildren(h("p", {}, along ? said : ""), drawing,
+  element.replaceChildren(h("p", {}, along ? said : ""), single > 0 ? h("p", { role: "note" }, singleText(single, rows.length)) : "",
+    drawing,
     table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible / rigid", (row) => number(row.ratio)],
-    ["Range", (row) => `${number(row.ratio_least)} to ${number(row.ratio_largest)}`],
-    ["Verdict", (row) => (row.verdict === "either" && row.ratio_least >= 0.999 && row.ratio_largest <= 1.001
-      ? "no difference" : row.verdict ?? "–")],
+    ["Range", (row) => (isSingle(row) ? "–" : `${number(row.ratio_least)} to ${number(row.ratio_largest)}`)],
+    ["Verdict", verdictOf],
     ["Coupler loss [J]", (row) => number(row.coupler_loss_j)],
     ["Share of all losses", (row) => percent(row.coupler_loss_part)]]));
   return along ? makeChart(drawing, () => optionOf(rows, axes, along, metric),
     "Ratio of flexible to rigid; the table below has the same numbers", signal) : null;
+}
+
+/** @typedef {Api.Get<"/v1/sweeps/{id}/flexibility">[number]} Pair */
+
+/// True of a pair whose range is that of no replicates: how far its values scatter is not known.
+/** @param {Pair} row */
+const isSingle = (row) => Number(row.rigid_count) < 2 || Number(row.flexible_count) < 2;
+
+/** @param {number} single  @param {number} all */
+function singleText(single, all) {
+  const which = single === all ? "Each ratio comes" : `${single.toLocaleString("en")} of ${all.toLocaleString("en")} ratios come`;
+  return `${which} from one run each, which may scatter by more than they differ: replicates give a verdict.`;
+}
+
+/// Verdict on a pair: with replicates only.
+/** @param {Pair} row */
+function verdictOf(row) {
+  if (row.ratio === null) return "–";
+  if (isSingle(row)) return "one run each";
+  return row.verdict === "either" && Number(row.ratio_least) >= 0.999 && Number(row.ratio_largest) <= 1.001 ? "no difference" : row.verdict ?? "–";
 }
 
 /// Between which two values of a parameter the ratio passes 1.
@@ -52,7 +73,7 @@ function optionOf(rows, axes, along, metric) {
     tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
     xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(`${nameOf(metric)}, flexible / rigid`),
     series: [...lines].flatMap(([name, line], index) =>
-      [bars(lineColour(index), line.map((row) => [row[along], row.ratio_least, row.ratio_largest])),
+      [bars(lineColour(index), line.filter((row) => !isSingle(row)).map((row) => [row[along], row.ratio_least, row.ratio_largest])),
       { name, type: "line", color: lineColour(index), symbolSize: 8, data: line.map((row) => [row[along], row.ratio]),
         ...(index === 0 ? { markLine: { symbol: "none", silent: true, label: { show: false },
           lineStyle: { color: colour("quiet") }, data: [{ yAxis: 1 }] } } : {}) }]),

@@ -25,13 +25,18 @@ export async function paperCard(element, { sweep }, signal) {
   const [numbered, others] = split(rows);
   const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }),
     download: `${sweep.name || sweep.id} paper.csv` };
-  element.replaceChildren(statements("The paper's statements", numbered, [["No.", (row) => row.number, "of"]]),
+  const note = singleRuns(sweep) ? [h("p", { role: "note" }, "One run each: replicates would show which ratios scatter.")] : [];
+  element.replaceChildren(...note, statements("The paper's statements", numbered, [["No.", (row) => row.number, "of"]]),
     ...(others.length === 0 ? []
       : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
       statements("Other velocities", others)]),
     ...indexParts(numbered), h("p", { class: "actions" }, h("a", csv, "CSV")));
   return null;
 }
+
+/// Note on statements that are held against single runs; empty if the sweep has replicates.
+/** @param {Api.Sweep} sweep */
+export const singleRuns = ({ request }) => (Number(request.replicates?.count ?? 1) > 1 ? "" : "one run each");
 
 /// Summary of the numbered statements in words: "7 of 7 hold".
 /** @param {Statement[]} rows */

@@ -6,7 +6,7 @@ import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
-import { bearsOnPaper, summaryOf } from "/analysis/paper.js";
+import { bearsOnPaper, singleRuns, summaryOf } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
 import { curveChoice } from "/study/curve_choice.js";
 import { metricsOf } from "/study/data.js";
@@ -229,7 +229,7 @@ export class SweepPage {
     try {
       const rows = await findAnalysis(this.sweep.id, "paper", {}, this.signal);
       this.paper.replaceChildren(h("a", { href: routeTo("analyses", this.sweep.id) },
-        "The paper's statements"), `: ${summaryOf(rows)}`);
+        "The paper's statements"), `: ${[summaryOf(rows), singleRuns(this.sweep)].filter(Boolean).join("; ")}`);
       setSeen(this.paper, true);
     } catch {
       setSeen(this.paper, false);  // the page of the analyses says why

@@ -2,8 +2,12 @@
 // The limit over the first numeric axis, a line for each combination of the others; between "all within" and "none
 // within" the band.
 import { axisLook, makeChart } from "/core/charts.js";
-import { nameOf, number, pointOf, titleOf } from "/core/format.js";
+import { nameOf, number, plural, pointOf, titleOf } from "/core/format.js";
 import { lineColour } from "/core/theme.js";
+
+/// True of a search whose values were run more than once: only then are there quantiles and bands.
+/** @param {Api.Search} search */
+export const hasReplicates = ({ request }) => Number(request.replicates?.count ?? 1) > 1;
 
 /**
  * @param {HTMLElement} element
@@ -12,7 +16,7 @@ import { lineColour } from "/core/theme.js";
  */
 export function limitCurve(element, view, signal) {
   return makeChart(element, () => optionOf(view.study),
-    "The limit over an axis, with its band; the table below has the same numbers", signal);
+    "The limit over an axis; the table below has the same numbers", signal);
 }
 
 /** @param {Api.Search} search */
@@ -40,7 +44,7 @@ function optionOf(search) {
     xAxis: { ...axis, name: x ? titleOf(x) : "", nameLocation: "middle", nameGap: 28, ...axisLook() },
     yAxis: { type: "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 50,
       ...axisLook() },
-    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at),
+    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at, hasReplicates(search)),
       lineSeries(name, limits, index, at)]),
   };
 }
@@ -52,10 +56,12 @@ function lineSeries(name, limits, index, at) {
       ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
 }
 
-function bandSeries(name, limits, index, at) {
+/// Bar beside a limit: the band between "all replicates" and "none", or the stretch in which the limit of single runs lies.
+function bandSeries(name, limits, index, at, isBand) {
+  const endsOf = (limit) => (isBand ? [limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond ?? limit.limit]
+    : [limit.limit, limit.limit_beyond ?? limit.limit]);
   return { name, type: "custom", color: lineColour(index),
-    data: limits.map((limit) => [at(limit), limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond
-      ?? limit.limit]), encode: { x: 0, y: [1, 2] },
+    data: limits.map((limit) => [at(limit), ...endsOf(limit)]), encode: { x: 0, y: [1, 2] },
     renderItem: (_, api) => {
       const [x, low] = api.coord([api.value(0), api.value(1)]);
       const [, high] = api.coord([api.value(0), api.value(2)]);
@@ -67,8 +73,10 @@ function bandSeries(name, limits, index, at) {
 /** @param {Api.Search} search  @param {Api.Limit} limit */
 function textOf(search, limit) {
   const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
-  const beyond = limit.limit_beyond === null ? "not exceeded up to there" : `exceeded at ${number(limit.limit_beyond)}`;
-  const band = `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}`;
+  const beyond = limit.limit_beyond === null ? `not exceeded at any of ${plural(limit.points.length, "value")} up to there`
+    : `exceeded at ${number(limit.limit_beyond)}`;
+  const band = hasReplicates(search)
+    ? `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}` : "one run at each value";
   return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band,
     limit.monotonic ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
 }

@@ -3,16 +3,18 @@
 import { searches } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { exact, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
-import { limitCurve } from "/study/limit_curve.js";
+import { hasReplicates, limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
 
-const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded",
+const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded at",
   always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
 
+/// Verdict on a limit; "not exceeded" with the number of values at which that was looked at.
 /** @type {(limit: Api.Limit) => string} */
-const verdictOf = ({ verdict, lost_reason: reason }) =>
-  verdicts[verdict] + (reason === "no_value" ? " (the metric does not apply)" : reason ? ` (${reason})` : "");
+const verdictOf = ({ verdict, lost_reason: reason, points }) =>
+  verdicts[verdict] + (verdict === "never_exceeded" ? ` ${points.length === 1 ? "the value" : `any of the ${points.length} values`} looked at` : "")
+  + (reason === "no_value" ? " (the metric does not apply)" : reason ? ` (${reason})` : "");
 
 /// The combination of a limit: "10 rad/s, flexible".
 /** @type {(search: Api.Search, limit: Api.Limit) => string} */
@@ -33,15 +35,17 @@ export class LimitView extends StudyView {
 
   intro() {
     const { study: search } = this;
-    return [h("p", {}, `The largest ${titleOf(search.parameter)} for which at least ${number(100 * search.quantile)} `
-      + `% of the replicates keep ${titleOf(search.metric)} at or below ${exact(search.bound)}.`)];
+    const by = hasReplicates(search) ? `for which at least ${number(100 * search.quantile)} % of the replicates keep` : "whose run keeps";
+    const single = "One run at each value: how much the metric scatters is not known, nor how sharp the limit is.";
+    return [h("p", {}, `The largest ${titleOf(search.parameter)} ${by} ${titleOf(search.metric)} at or below ${exact(search.bound)}.`),
+      ...(hasReplicates(search) ? [] : [h("p", { role: "note" }, single)])];
   }
 
   columns() {
     const { study: search } = this;
     const unit = `[${unitOf(search.parameter) || "1"}]`;
     return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`],
-      [`OK up to ${unit}`, "number"], [`Exceeded from ${unit}`, "number"],
+      ...(hasReplicates(search) ? [[`OK in all up to ${unit}`, "number"], [`Exceeded in all from ${unit}`, "number"]] : []),
       ["Evaluations", "number"], [`Metric falls in ${unit}`]];
   }
 
@@ -72,7 +76,7 @@ export class LimitView extends StudyView {
       : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
     return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))),
       h("td", {}, verdictOf(limit)), h("td", {}, between),
-      h("td", { class: "number" }, number(limit.band_from)), h("td", { class: "number" }, number(limit.band_to)),
+      ...(hasReplicates(this.study) ? [limit.band_from, limit.band_to].map((end) => h("td", { class: "number" }, number(end))) : []),
       h("td", { class: "number" }, String(limit.evaluations)),
       h("td", {}, falls || "–"));
   }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verdicts say what they stand on: single runs, replicates, and at how many values was looked.   node verdicts.mjs URL FOLDER
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { ask, endVisits, expectAccessible, leave, picture, runSweep, visit } from "./visitor.mjs";
+
+after(endVisits);
+const short = { duration_s: 0.3, run_up_s: 0.1 };
+
+/** Texts of the cells of a table. */
+const cells = (page, name) => page.getByRole("region", { name, exact: true }).locator("tbody tr")
+  .evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => cell.textContent)));
+
+/** The search with this request, once it has ended. */
+async function runSearch(request) {
+  let search = await ask("/v1/searches", request);
+  for (const end = Date.now() + 120_000; search.state === "running"; search = await ask(`/v1/searches/${search.id}`)) {
+    assert.ok(Date.now() < end);
+    await new Promise((resolve) => { setTimeout(resolve, 100); });
+  }
+  return search;
+}
+
+test("flexibility helps or harms by replicates only", async () => {
+  const parameters = { ...short, clearance_mm: 0.2 };
+  const sweep = { crank_velocity_rad_s: [9, 11], coupler: ["rigid", "flexible"] };
+  const single = await runSweep({ name: "single runs", parameters, sweep });
+  assert.ok((await ask(`/v1/sweeps/${single.id}/flexibility`)).some(({ verdict }) => ["helps", "harms"].includes(verdict)), "something to hold back");
+  const page = await visit(`#/analyses/${single.id}`);
+  await page.getByText("Each ratio comes from one run each, which may scatter by more than they differ: replicates give a verdict.").waitFor();
+  assert.deepEqual((await cells(page, "Rigid and flexible")).map((row) => row.slice(2, 4)), [["–", "one run each"], ["–", "one run each"]]);
+  await expectAccessible(page);
+  await picture(page, "flexibility_single");
+  await leave(page);
+  const many = await runSweep({ name: "replicated", parameters, sweep, replicates: { count: 2 } });
+  const pairs = await ask(`/v1/sweeps/${many.id}/flexibility`);
+  const other = await visit(`#/analyses/${many.id}`);
+  await other.getByRole("region", { name: "Rigid and flexible" }).waitFor();
+  const shown = await cells(other, "Rigid and flexible");
+  assert.deepEqual(shown.map((row) => row[3]), pairs.map(({ verdict }) => (verdict === "either" ? "no difference" : verdict)));
+  assert.ok(shown.every((row) => / to /.test(row[2])));
+  assert.equal(await other.getByText("one run each").count(), 0);
+  await leave(other);
+});
+
+test("a limit that was not exceeded says at how many values was looked, and has no band of single runs", async () => {
+  const request = { parameters: short, over: { clearance_mm: { from: 0.05, to: 0.3, tolerance: 0.1, first: 3 } }, metric: "max_penetration_um", bound: 1000,
+    sweep: { crank_velocity_rad_s: [8] } };
+  const single = await runSearch({ name: "one run each", ...request });
+  const page = await visit(`#/searches/${single.id}`);
+  await page.getByText("whose run keeps Max penetration [µm] at or below 1000").waitFor();
+  await page.getByText("One run at each value: how much the metric scatters is not known").waitFor();
+  assert.deepEqual((await cells(page, "Limits"))[0].slice(1, 4), ["not exceeded at any of the 3 values looked at", "beyond 0.3", "3"]);
+  assert.equal(await page.getByText(/in all/).count(), 0);
+  await page.locator(".chart canvas").nth(1).waitFor();
+  await expectAccessible(page);
+  await picture(page, "limit_single", { fullPage: true });
+  await leave(page);
+  const many = await runSearch({ name: "two runs each", ...request, replicates: { count: 2 } });
+  const other = await visit(`#/searches/${many.id}`);
+  await other.getByText("for which at least 90 % of the replicates keep").waitFor();
+  await other.getByRole("columnheader", { name: "OK in all up to [mm]" }).waitFor();
+  assert.equal(await other.getByText("One run at each value").count(), 0);
+  await leave(other);
+});
+
+test("the paper's statements say that they stand on one run each", async () => {
+  const sweep = { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [10, 15], coupler: ["rigid", "flexible"] };
+  const single = await runSweep({ parameters: short, sweep });
+  const page = await visit(`#/sweeps/${single.id}`);
+  await page.getByText(/The paper's statements: .*; one run each$/).waitFor();
+  await page.getByRole("link", { name: "The paper's statements" }).click();
+  await page.getByText("One run each: replicates would show which ratios scatter.").waitFor();
+  await leave(page);
+});
