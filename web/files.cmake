@@ -34,6 +34,7 @@ set(page_files
   form/fitted_measurements.js
   form/from_sweep.js
   form/list_fields.js
+  form/numbers.js
   form/optimisation_form.js
   form/request.js
   form/request_form.js

@@ -448,6 +448,8 @@ test("a wear study is begun in its form, draws the bore and is deleted", async (
   await page.getByLabel("Restitution", { exact: true }).fill("0.8, 0.9");
   await page.locator("[data-path='restitution']").getByText("must have a single value in a wear study").waitFor();
   await page.getByLabel("Restitution", { exact: true }).fill("");
+  await page.locator("[data-path='restitution']").getByText("the list is empty").waitFor();
+  await page.getByLabel("Restitution: kind of value").selectOption("one");
   await page.getByRole("button", { name: "Submit" }).click();
   await page.getByRole("alert").getByText("/sectors: must be an integer").waitFor();
   assert.equal(await page.getByLabel("Sectors", { exact: true }).getAttribute("aria-invalid"), "true");

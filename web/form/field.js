@@ -3,6 +3,7 @@
 import { freshId, h } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
 import { allowed } from "/form/fields.js";
+import { converted, factorOf, unitsOf } from "/form/numbers.js";
 
 /// @param entry    what stands in it; is changed as the user types
 /// @param changed  is called after each change
@@ -19,13 +20,29 @@ export function fieldRow(field, entry, changed) {
   const labelled = (text, element) => h("label", { class: "small" }, `${text} `, element);
   const name = nameOf(field.path);
 
+  /// Unit of entry, where there are several; what stands in the field is converted.
+  function unitChoice() {
+    const units = unitsOf(field);
+    if (units.length === 1 || field.kind === "numbers") return [];
+    const select = h("select", { "aria-label": `${name}: unit`, onchange: () => {
+      const factor = factorOf(field, entry.unit) / factorOf(field, select.value);
+      for (const key of ["text", "from", "to"]) entry[key] = converted(entry[key], factor);
+      entry.unit = select.value;
+      drawValues();
+      changed();
+    } }, units.map((unit) => h("option", { value: unit }, unit)));
+    select.value = entry.unit || field.unit;
+    return [select];
+  }
+
   function drawValues() {
     if (field.kind === "words") return values.replaceChildren(...field.schema.enum.map(wordBox));
     if (entry.mode !== "range") {
-      const hint = entry.mode === "list" ? "0, 0.1, 0.2" : String(field.default ?? "");
+      const usual = converted(String(field.default ?? ""), 1 / factorOf(field, entry.unit));
+      const hint = entry.mode === "list" ? "0, 0.1, 0.2" : factorOf(field, entry.unit) === 1 ? String(field.default ?? "") : usual;
       return values.replaceChildren(
         input("text", name, { type: "text", id, inputmode: entry.mode === "one" ? "decimal" : null,
-          placeholder: hint }));
+          placeholder: hint }), ...unitChoice());
     }
     const scale = h("select",
       { "aria-label": `${name}: spacing`, onchange: () => { entry.scale = scale.value; changed(); } },
@@ -33,7 +50,7 @@ export function fieldRow(field, entry, changed) {
     scale.value = entry.scale;
     return values.replaceChildren(labelled("from", input("from", `${name}: from`, { type: "text" })),
       labelled("to", input("to", `${name}: to`, { type: "text" })),
-      labelled("count", input("count", `${name}: count`, { type: "number", min: 1 })), scale);
+      labelled("count", input("count", `${name}: count`, { type: "number", min: 1 })), scale, ...unitChoice());
   }
 
   function wordBox(word) {
@@ -55,7 +72,7 @@ export function fieldRow(field, entry, changed) {
   const fallback = field.default === undefined ? ""
     : `; default ${[field.default].flat().map(short).join(", ")}${unit}`;
   const label = field.kind === "words" ? h("span", {}, name)
-    : h("label", { for: id }, name, field.unit ? ` [${field.unit}]` : "");
+    : h("label", { for: id }, name, field.unit && unitsOf(field).length === 1 ? ` [${field.unit}]` : "");
   const element = h("div",
     { class: "field", role: field.kind === "words" ? "group" : null, "aria-label": field.kind === "words" ? name : null,
       "data-path": field.path }, label,

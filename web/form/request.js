@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what stands in the form to a request, and back.
 import { faultOf, isInside, writtenAsJson } from "/form/fields.js";
+import { factorOf, readList, readNumber } from "/form/numbers.js";
 
-export const emptyEntry = () => ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [] });
-
-const parts = (text) => text.split(/[\s,;]+/).filter(Boolean);
+/// What stands in a field at first. The unit is that of entry, empty for the field's own.
+export const emptyEntry = () =>
+  ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [], unit: "" });
 
 /// @param state  {name, priority, reuse, described, linkage, inside, cases, design, replicates: {count, perturbation, seed, only,
 /// tolerance_factor}, entries: {path: entry}}
@@ -28,15 +29,25 @@ export function buildRequest(fields, state) {
   if (Object.keys(request.sweep).length === 0) delete request.sweep;
   addJson("cases", state.cases, request, problems);
   addJson("design", state.design, request, problems);
-  if (Number(state.replicates.count) > 1) {
-    const { count, perturbation, seed, only, tolerance_factor: factor } = state.replicates;
-    // undefined: every set
-    request.replicates = { count: Number(count), perturbation: Number(perturbation), seed: Number(seed), only };
-    if (Number(factor) !== 1) request.replicates.tolerance_factor = Number(factor);
-  }
+  addReplicates(state, request, problems);
   if (Number(state.priority) !== 0) request.priority = Number(state.priority);
   if (!state.reuse) request.reuse = false;
   return { request: JSON.parse(JSON.stringify(request)), problems };
+}
+
+function addReplicates(state, request, problems) {
+  if (Number(state.replicates.count) > 1) {
+    const { count, perturbation, seed, only, tolerance_factor: factor } = state.replicates;
+    // undefined: every set
+    const number = (name, value) => {
+      const read = readNumber(String(value));
+      if (!Number.isFinite(read)) problems.push({ path: `replicates: ${name}`, detail: "must be a number" });
+      return read;
+    };
+    request.replicates = { count: Number(count), perturbation: number("perturbation", perturbation), seed: number("seed", seed), only };
+    const tolerance = number("factor of the tolerances", factor);
+    if (tolerance !== 1) request.replicates.tolerance_factor = tolerance;
+  }
 }
 
 function addEntry(field, entry, request, refuse) {
@@ -49,19 +60,36 @@ function addEntry(field, entry, request, refuse) {
     addRange(field, entry, request, refuse);
     return;
   }
-  const values = parts(entry.text).map(Number);
-  if (values.length === 0) return;
+  const isAxis = entry.mode === "list" && field.kind !== "numbers";
+  const { values: typed, fault: unclear } = isAxis || field.kind === "numbers" || !isOneNumber(entry.text) ? readList(entry.text)
+    : { values: [readNumber(entry.text)], fault: "" };
+  const values = typed.map((value) => inUnit(field, entry, value));
   const fault = values.map((value) => faultOf(field, value)).find(Boolean);
-  if (fault) refuse(fault);
-  else if (field.kind === "numbers") setAtPath(request.parameters, field.path, values);
-  else if (entry.mode === "list") request.sweep[field.path] = values;
+  const empty = isAxis && values.length === 0 ? "the list is empty: write values such as 0, 0.1, 0.2, or choose “one value”" : "";
+  if (unclear || empty) refuse(unclear || empty);
+  else if (fault) refuse(fault);
+  else if (field.kind === "numbers" && values.length > 0) setAtPath(request.parameters, field.path, values);
+  else if (isAxis) request.sweep[field.path] = values;
   else if (values.length > 1) refuse("is one value; choose “list” for several");
-  else setAtPath(request.parameters, field.path, values[0]);
+  else if (values.length === 1) setAtPath(request.parameters, field.path, values[0]);
+}
+
+const isOneNumber = (text) => Number.isFinite(readNumber(text));
+
+/// A value in the unit of its field. Values are rounded to 12 digits, as those of ranges are.
+function inUnit(field, entry, value) {
+  const factor = factorOf(field, entry.unit);
+  return factor === 1 ? value : Number((value * factor).toPrecision(12));
 }
 
 function addRange(field, entry, request, refuse) {
-  if (entry.from === "" && entry.to === "") return;
-  const range = { from: Number(entry.from || NaN), to: Number(entry.to || NaN), count: Number(entry.count) };
+  const empty = ["from", "to"].filter((end) => entry[end].trim() === "");
+  if (empty.length > 0) {
+    refuse(`${empty.map((end) => `“${end}”`).join(" and ")} ${empty.length === 1 ? "is" : "are"} empty: write a number, or choose “one value”`);
+    return;
+  }
+  const [from, to] = [entry.from, entry.to].map((text) => inUnit(field, entry, readNumber(text)));
+  const range = { from, to, count: Number(entry.count || NaN) };
   const fault = faultOf(field, range.from) || faultOf(field, range.to);
   if (fault) refuse(fault);
   else if (!Number.isInteger(range.count) || range.count < 1) refuse("the count of a range is a whole number from 1");

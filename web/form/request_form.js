@@ -2,6 +2,7 @@
 // Base of the forms of sweeps, searches and wear studies: fields of parameters, request, and refusals of the service.
 import { Refusal } from "/core/api.js";
 import { choice, freshId, h, notify } from "/core/dom.js";
+import { nameOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { fieldRow } from "/form/field.js";
 import { pathOfPointer } from "/form/fields.js";
@@ -30,6 +31,7 @@ export class RequestForm {
   count = h("p", { class: "big", role: "status" });
   cost = h("p", { class: "quiet small" });
   faults = h("div", { class: "trouble", role: "alert" });
+  blocked = h("p", { class: "trouble small", role: "status" });
   send = h("button", { class: "main", onclick: () => this.submit() }, "Submit");
   shown = h("code");
   curl = h("code");
@@ -162,7 +164,7 @@ export class RequestForm {
     const copy = (label, code) =>
       h("button", { onclick: () => navigator.clipboard.writeText(code.textContent)
         .then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
-    return [this.count, this.cost, this.faults, h("p", {}, this.send),
+    return [this.count, this.cost, this.faults, this.blocked, h("p", {}, this.send),
       h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown),
       h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
       h("details", {}, h("summary", {}, "curl command"), h("pre", { tabindex: 0 }, this.curl))];
@@ -183,11 +185,18 @@ export class RequestForm {
     for (const { path, detail } of problems) this.rows.get(path)?.complain(detail);
     this.drawCount(request);
     this.drawSend();
+    this.drawBlocked();
     this.faults.replaceChildren(...problems.filter(({ path }) => !this.rows.has(path))
       .map(({ path, detail }) => h("p", {}, `${path}: ${detail}`)));
     this.shown.textContent = JSON.stringify(request, null, 1);
     this.curl.textContent = "curl -d "
       + `'${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
+  }
+
+  /// Names the fields that keep the request from being sent; each of them says why.
+  drawBlocked() {
+    const atFields = [...new Set(this.problems.map(({ path }) => path).filter((path) => this.rows.has(path)))];
+    this.blocked.textContent = atFields.length === 0 ? "" : `Not ready to submit: see ${atFields.map((path) => nameOf(path)).join(", ")}.`;
   }
 
   drawSend() {

@@ -5,6 +5,7 @@ import { h } from "/core/dom.js";
 import { nameOf, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { allowed, fieldsOf } from "/form/fields.js";
+import { readNumber } from "/form/numbers.js";
 import { buildRequest, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
@@ -85,7 +86,7 @@ export class StudyForm extends RequestForm {
 /// Puts a number into an object, unless its text is empty. @param path  by which a fault of it is told
 export function addNumber(text, key, path, object, problems) {
   if (!text?.trim()) return;
-  const value = Number(text);
+  const value = readNumber(text);
   if (Number.isFinite(value)) object[key] = value;
   else problems.push({ path, detail: "must be a number" });
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers as people type them: decimal points and commas, lists, and units of entry.
+
+/// One number; NaN for anything else. A single comma is a decimal comma.
+/** @param {string} text */
+export function readNumber(text) {
+  const typed = text.trim().replaceAll("−", "-");
+  if (typed === "") return NaN;
+  return Number(/^[^.,]*,[^.,]*$/.test(typed) ? typed.replace(",", ".") : typed);
+}
+
+/// Numbers of a list. Commas before a space separate, as do semicolons and spaces; between digits they are decimal, where
+/// semicolons separate, and separate, where numbers have decimal points or there are several.
+/** @param {string} text  @returns {{ values: number[], fault: string }} */
+export function readList(text) {
+  const pieces = text.split(/[;\s]+|,(?=\s|$)/).filter((piece) => piece && piece !== ",");
+  /** @type {number[]} */
+  const values = [];
+  for (const piece of pieces) {
+    const inside = piece.split(",");
+    if (inside.length === 2 && text.includes(";")) values.push(readNumber(piece));
+    else if (inside.length === 2 && !piece.includes(".") && /^[-−+]?\d+,\d+$/.test(piece)) {
+      return { values: [], fault: `“${piece}” may be one number or two: write ${inside.join(".")}, or ${inside.join("; ")}` };
+    } else values.push(...inside.map(readNumber));
+  }
+  return { values, fault: "" };
+}
+
+const turn = 2 * Math.PI;
+
+/// Units in which a value may be entered, with the factor to the unit of the field.
+const entryUnits = { "rad/s": [["rpm", turn / 60], ["°/s", turn / 360]], rad: [["°", turn / 360]] };
+
+/// Units of a field: its own, and others in which it may be entered.
+/** @param {{ unit: string }} field  @returns {string[]} */
+export const unitsOf = ({ unit }) => [unit, ...(entryUnits[unit] ?? []).map(([name]) => name)];
+
+/// What a number in some unit is multiplied with to be in the unit of the field.
+/** @param {{ unit: string }} field  @param {string} [unit]  @returns {number} */
+export const factorOf = (field, unit) => (entryUnits[field.unit] ?? []).find(([name]) => name === unit)?.[1] ?? 1;
+
+/// Numbers in a text, from one unit to another, in at most 12 digits; as it is, if it has none.
+/** @param {string} text  @param {number} factor */
+export function converted(text, factor) {
+  const { values, fault } = readList(text);
+  if (fault || values.length === 0 || values.some((value) => !Number.isFinite(value))) return text;
+  return values.map((value) => String(Number((value * factor).toPrecision(12)))).join(", ");
+}
