@@ -73,7 +73,7 @@ async function show() {
   leave();
   const ended = new AbortController();
   leave = () => ended.abort();
-  main.replaceChildren();
+  main.replaceChildren(h("p", { class: "quiet loading", role: "status" }, "Loading …"));
   markNavigation(kind);
   let page = null;
   try {

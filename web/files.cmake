@@ -19,6 +19,7 @@ set(page_files
   core/dom.js
   core/download.js
   core/format.js
+  core/list_tools.js
   core/live.js
   core/modules.js
   core/quantities.js

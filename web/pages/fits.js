@@ -13,7 +13,7 @@ import { nameOfVariable } from "/study/variables.js";
 const kind = {
   api: fits, route: "fits", title: "Fits",
   question: "Values of parameters with which jobs give measured signals, and how sure they are.",
-    listName: "Fits",
+    listName: "Fits", nouns: ["fit", "fits"],
   aim: { heading: "Parameters",
     /** @param {Api.Listed<"/v1/fits">} fit */
     textOf: ({ variables }) => variables.map(nameOfVariable).join(", ") },

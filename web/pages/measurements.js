@@ -21,26 +21,30 @@ export function show(main, { id, query, signal }) {
 async function showList(main, signal) {
   document.title = "RPSUP: measurements";
   const body = h("tbody");
-  const status = h("p", { class: "quiet", role: "status" });
+  const status = h("p", { class: "quiet", role: "status" }, "Loading …");
+  const empty = h("section", { class: "card", hidden: true }, h("h2", {}, "No measurements yet."),
+    h("p", {}, "Begin with New measurement: choose a CSV, NPZ or JSON file with a column of times in seconds and a column for "
+      + "each signal. The page shows the signals before they are sent, and asks which channel each of them is."));
   const trouble = h("p", { class: "trouble", role: "alert" });
   const more = h("button", { onclick: () => { limit += pageSize; refresh(); } }, "Show more");
   let limit = pageSize;
   const table = h("div", { class: "scroll card", tabindex: 0, role: "region", "aria-label": "Measurements" },
-    h("table", {}, h("thead", {}, h("tr", {}, headings.map(([text, look]) =>
+    h("table", { class: "list" }, h("thead", {}, h("tr", {}, headings.map(([text, look]) =>
       h("th", { scope: "col", class: look }, text)))), body));
   const refresh = async () => {
     const { items, next_cursor: next } = await listMeasurements({ limit }, signal);
     body.replaceChildren(...items.map((each) => row(each, trouble, refresh)));
     table.hidden = items.length === 0;
+    empty.hidden = items.length > 0;
     more.hidden = !next;
-    status.textContent = items.length === 0 ? "No measurements yet." : "";
+    status.textContent = "";
   };
   main.replaceChildren(h("h1", {}, "Measurements"),
     h("p", {}, "Signals of a lab. A fit finds the parameters with which jobs give them; any job can be "
       + "looked at "
       + "beneath them."),
     h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo("measurements", "new") },
-      "New measurement")), trouble, status, table, more);
+      "New measurement")), trouble, status, table, empty, more);
   await refresh();
 }
 

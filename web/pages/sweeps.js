@@ -5,6 +5,7 @@ import { loadCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
+import { ListOrder, Marked } from "/core/list_tools.js";
 import { follow, isUnderWay, settled } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { executorsPanel } from "/study/executors.js";
@@ -18,13 +19,20 @@ const followed = 3;  // a browser keeps six connections to a service, and the pa
 const states = ["queued", "running", "succeeded", "failed", "cancelled"];
 /** @type {(text: string | null) => Api.State | ""} */
 const stateOf = (text) => states.find((state) => state === text) ?? "";
-const columns = [["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"],
+const columns = [["box", ""], ["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"],
   ["created", "Created"], ["actions", "Actions"]];
 const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits "
   + "and slides in its bearing, and accelerations and "
   + "forces have peaks that an ideal linkage has not. A sweep is a set of such simulations over ranges of their "
   + "parameters; the service computes them in the "
   + "background and keeps what comes out, and charts and tables fill as it does.";
+
+/** @typedef {Api.Listed<"/v1/sweeps">} Listing */
+
+/// What sweeps can be ordered by, with its heading.
+/** @type {Record<string, [string, (sweep: Listing) => string | number]>} */
+const orders = { name: ["Name", (sweep) => sweep.name || sweep.id], state: ["State", (sweep) => sweep.state],
+  jobs: ["Jobs", (sweep) => sweep.counts.total], created: ["Created", (sweep) => sweep.created_at] };
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { query, signal }) {
@@ -48,7 +56,9 @@ class SweepList {
   more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
   none = h("p", { class: "card", hidden: true }, "No matching sweeps.");
   executors = executorsPanel();
-  table = this.#makeTable();
+  /** @type {Marked<Listing>} */
+  marked = new Marked({ nouns: ["sweep", "sweeps"], mayGo: (sweep) => !isUnderWay(sweep) && !sweep.study_id, remove: deleteSweep,
+    done: () => this.refresh() });
   empty = this.#makeWelcome();
 
   /** @param {URLSearchParams} query  @param {AbortSignal} signal */
@@ -56,10 +66,14 @@ class SweepList {
     this.signal = signal;
     this.state = stateOf(query.get("state"));
     this.search = query.get("search") ?? "";
+    /** @type {ListOrder<Listing>} */
+    this.order = new ListOrder(orders, query.get("sort"), () => { this.changed(); this.refresh(); });
+    this.table = this.#makeTable();
   }
 
   #makeTable() {
-    const headings = columns.map(([key, text]) => h("th", { scope: "col", class: `column-${key}` }, text));
+    const headings = columns.map(([key, text]) => h("th", { scope: "col", class: `column-${key}` },
+      key === "box" ? this.marked.all : this.order.heading(key, text)));
     return h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": "Sweeps" },
       h("table", { class: "listing" }, h("thead", {}, h("tr", {}, headings)), this.body));
   }
@@ -83,18 +97,19 @@ class SweepList {
       h("label", { class: "choice" }, h("span", {}, "Search (name, id, axis)"), search),
       choice("State", [["", "any"], ...states], this.state,
         (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
-      h("a", { class: "button main", href: "#/new" }, "New sweep"));
-    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.table, this.none, this.more,
+      this.order.element, h("a", { class: "button main", href: "#/new" }, "New sweep"));
+    this.order.draw();
+    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.marked.bar, this.table, this.none, this.more,
       this.empty];
   }
 
   changed() {
-    rememberQuery({ state: this.state, search: this.search });
+    rememberQuery({ state: this.state, search: this.search, sort: this.order.isUsual ? "" : this.order.chosen });
     this.draw();
   }
 
   #query() {
-    return { limit: this.search ? mostSearched : this.limit, state: this.state || undefined };
+    return { limit: this.search || !this.order.isUsual ? mostSearched : this.limit, state: this.state || undefined };
   }
 
   async refresh() {
@@ -146,11 +161,11 @@ class SweepList {
   }
 
   draw() {
-    const shown = this.sweeps.filter((sweep) => this.matches(sweep));
+    const shown = this.order.ordered(this.sweeps.filter((sweep) => this.matches(sweep)));
     const actions = { cancel: cancelSweep, retry: retrySweep, delete: deleteSweep };
     const rows = shown.map((sweep) => {
       const row = this.rows.get(sweep.id) ?? sweepRow((action) => this.act(actions[action], action, sweep.id),
-        this.signal);
+        this.marked.box(sweep), this.signal);
       this.rows.set(sweep.id, row);
       row.update(sweep);
       return row.element;
@@ -158,6 +173,7 @@ class SweepList {
     // Rows that stay are left in their places, with the keyboard's focus in them.
     if (rows.length !== this.body.children.length
       || rows.some((row, i) => this.body.children[i] !== row)) this.body.replaceChildren(...rows);
+    this.marked.update(shown);
     this.table.hidden = shown.length === 0;
     this.empty.hidden = shown.length > 0 || this.search !== "" || this.state !== "";
     this.none.hidden = shown.length > 0 || !this.empty.hidden;

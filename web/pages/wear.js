@@ -19,7 +19,7 @@ const untilOf = ({ hours, worn_clearance_mm: clearance }) => [hours === null ? "
 const kind = {
   api: wearStudies, route: "wear", title: "Wear",
   question: "Wear of the bearing's bore over time, cycle by cycle; each cycle simulates the worn bore.",
-  listName: "Wear studies",
+  listName: "Wear studies", nouns: ["wear study", "wear studies"],
   aim: { heading: "End", textOf: untilOf }, none: "No wear studies yet.", begin: "New wear study",
 };
 

@@ -8,7 +8,7 @@ import { routeTo } from "/core/route.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
 // of its cells
-const classes = { name: "name", state: "", jobs: "small", peaks: "peaks", created: "small created", actions: "acts" };
+const classes = { box: "box", name: "name", state: "", jobs: "small", peaks: "peaks", created: "small created", actions: "acts" };
 const shownOfId = 7;  // of its letters the last ones: the first tell the time and are much alike
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
@@ -26,9 +26,9 @@ export function studyBadge({ study_id: id }) {
   return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);
 }
 
-/// @param act  is called with "cancel", "retry" or "delete"
-/** @param {(action: "cancel" | "retry" | "delete") => void} act  @param {AbortSignal} signal */
-export function sweepRow(act, signal) {
+/// @param act  is called with "cancel", "retry" or "delete"  @param box  that marks the sweep
+/** @param {(action: "cancel" | "retry" | "delete") => void} act  @param {HTMLElement} box  @param {AbortSignal} signal */
+export function sweepRow(act, box, signal) {
   const cells = Object.fromEntries(Object.entries(classes).map(([key, name]) => [key, h("td", { class: name })]));
   const element = h("tr", {}, ...Object.values(cells));
   const buttons = {
@@ -37,11 +37,14 @@ export function sweepRow(act, signal) {
     delete: h("button", { class: "danger", onclick: () => act("delete") }, "Delete"),
   };
   const again = h("a", { class: "button" }, "Duplicate");
-  cells.actions.append(h("span", { class: "actions" }, again, buttons.delete, buttons.cancel, buttons.retry));
+  cells.actions.append(h("span", { class: "actions" }, again, buttons.retry,
+    h("span", { class: "either" }, buttons.delete, buttons.cancel)));
+  cells.box.append(box);
   const bar = h("progress");
-  const percent = h("span", { class: "small quiet" });
-  const state = h("div");
-  cells.state.append(state, bar, percent);
+  const percent = h("span", { class: "quiet" });
+  const left = h("span", { class: "small quiet" });
+  const state = h("span");
+  cells.state.append(h("div", { class: "line" }, state, " ", percent), left, bar);
   let drawn = "";
   let counted = -1;
 
@@ -51,15 +54,17 @@ export function sweepRow(act, signal) {
     if (text === drawn) return;
     drawn = text;
     const name = sweep.name || sweep.id;
-    cells.name.replaceChildren(h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id },
-      sweep.name || shortOf(sweep.id)), studyBadge(sweep),
-    h("span", { class: "small quiet" }, sweep.axes.map(nameOf).join(" × ")));
+    cells.name.replaceChildren(h("div", { class: "line" }, h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id },
+      sweep.name || shortOf(sweep.id)), " ", studyBadge(sweep)),
+    h("span", { class: "small quiet", title: sweep.axes.map(nameOf).join(" × ") }, sweep.axes.map(nameOf).join(" × ")));
     state.className = sweep.state;
     state.textContent = sweep.executor === "local" ? sweep.state : `${sweep.state} on ${sweep.executor}`;
     const part = `${Math.floor(100 * sweep.progress)} %`;
     bar.value = sweep.progress;
     bar.setAttribute("aria-label", `Progress of ${name}`);
-    percent.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `${part}, about ${span(sweep.eta_s)} left` : part;
+    percent.textContent = part;
+    left.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `about ${span(sweep.eta_s)} left` : "";
+    bar.hidden = !isUnderWay(sweep);
     cells.jobs.textContent = jobStates.filter((each) => sweep.counts[each] > 0)
       .map((each) => `${sweep.counts[each].toLocaleString("en")} ${each}`).join(", ");
     cells.created.textContent = moment(sweep.created_at);

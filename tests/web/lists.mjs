@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists: low rows, their order, several deleted together, empty ones that say how to begin, views that load.   node lists.mjs URL FOLDER
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+
+import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, runSweep, url, visit } from "./visitor.mjs";
+
+after(endVisits);
+const short = { duration_s: 0.02, run_up_s: 0.01 };
+
+test("empty pages say how to begin, and their examples are ready to be sent", async () => {
+  const page = await visit("#/searches");
+  for (const [route, heading] of [["searches", "No searches yet."], ["wear", "No wear studies yet."], ["optimisations", "No optimisations yet."], ["fits", "No fits yet."]]) {
+    await page.goto(`${url}/#/${route}`);
+    await page.getByRole("heading", { name: heading }).waitFor();
+    assert.equal(await page.getByRole("link", { name: "Begin with the example" }).getAttribute("href"), `#/${route}/new`);
+    assert.equal(await page.locator("table:visible").count(), 0);
+    await expectAccessible(page);
+  }
+  await page.goto(`${url}/#/searches`);
+  await page.getByRole("link", { name: "Begin with the example" }).click();
+  await page.getByText("3 limits to find").waitFor();
+  assert.ok(await page.getByRole("button", { name: "Submit" }).isEnabled());
+  await page.goto(`${url}/#/measurements`);
+  await page.getByText("Begin with New measurement: choose a CSV, NPZ or JSON file").waitFor();
+  await expectAccessible(page);
+  await picture(page, "empty_measurements");
+  await leave(page);
+});
+
+test("sweeps have low rows, are sorted, and several are deleted together", async () => {
+  for (const [k, name] of ["beta", "gamma", "alpha"].entries()) {
+    await runSweep({ name, parameters: short, sweep: { clearance_mm: Array.from({ length: k + 1 }, (_, i) => 0.1 + i / 100) } });
+  }
+  const long = await ask("/v1/sweeps", { name: "delta", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 } });
+  const page = await visit("");
+  const names = () => page.locator(".listing tbody .name a[title]").allTextContents();
+  await page.getByRole("link", { name: "alpha", exact: true }).waitFor();
+  assert.deepEqual(await names(), ["delta", "alpha", "gamma", "beta"]);
+  const heights = await page.locator(".listing tbody tr").evaluateAll((rows) => rows.map(({ offsetHeight }) => offsetHeight));
+  assert.ok(heights.length === 4 && heights.every((height) => Math.abs(height - 40) <= 1), `${heights}`);
+  await page.getByRole("button", { name: "Name", exact: true }).click();
+  await page.waitForURL(/sort=name/);
+  assert.deepEqual(await names(), ["alpha", "beta", "delta", "gamma"]);
+  assert.equal(await page.getByRole("columnheader", { name: /^Name/ }).getAttribute("aria-sort"), "ascending");
+  await page.getByRole("combobox", { name: "Sort by" }).selectOption("-jobs");
+  assert.deepEqual((await names()).slice(0, 2), ["alpha", "gamma"]);
+  await expectAccessible(page);
+  for (const width of [390, 1280, 1920]) {
+    await page.setViewportSize({ width, height: 900 });
+    await expectNoSideways(page);
+    await picture(page, `lists_${width}`);
+  }
+  await page.setViewportSize({ width: 1360, height: 900 });
+  for (const name of ["alpha", "beta", "delta"]) await page.getByRole("checkbox", { name: `Select ${name}` }).check();
+  await page.getByText("3 sweeps selected").waitFor();
+  await page.getByText("1 sweep cannot be deleted: under way, or part of a study.").waitFor();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Delete selected" }).click();
+  await page.getByText("Delete 2 sweeps: “alpha”, “beta”?").waitFor();
+  await picture(page, "lists_delete");
+  await page.getByRole("button", { name: "Delete", exact: true }).click();
+  await page.getByRole("link", { name: "alpha", exact: true }).waitFor({ state: "detached" });
+  assert.deepEqual((await ask("/v1/sweeps")).items.map(({ name }) => name), ["delta", "gamma"]);
+  await page.getByText("1 sweep selected").waitFor();
+  await page.getByRole("checkbox", { name: "Select all sweeps" }).check();
+  await page.getByText("2 sweeps selected").waitFor();
+  await ask(`/v1/sweeps/${long.id}/cancel`, {});
+  await page.getByText("cannot be deleted").waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Delete selected" }).click();
+  await page.getByRole("button", { name: "Delete", exact: true }).click();
+  await page.getByRole("heading", { name: "No sweeps yet" }).waitFor();
+  await leave(page);
+});
+
+test("studies are sorted and deleted together", async () => {
+  const over = { clearance_mm: { from: 0.1, to: 0.2, first: 2, tolerance: 0.1 } };
+  for (const name of ["second", "first"]) await ask("/v1/searches", { name, parameters: short, over, metric: "max_penetration_um", bound: 1000 });
+  const page = await visit("#/searches");
+  await page.locator("tbody tr").filter({ hasText: "succeeded" }).nth(1).waitFor();
+  const names = () => page.locator("tbody .name").allTextContents();
+  assert.deepEqual(await names(), ["first", "second"]);
+  await page.getByRole("combobox", { name: "Sort by" }).selectOption("-name");
+  assert.deepEqual(await names(), ["second", "first"]);
+  await page.getByRole("checkbox", { name: "Select all searches" }).check();
+  await page.getByText("2 searches selected").waitFor();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Delete selected" }).click();
+  await page.getByRole("button", { name: "Delete", exact: true }).click();
+  await page.getByRole("heading", { name: "No searches yet." }).waitFor();
+  assert.deepEqual((await ask("/v1/searches")).items, []);
+  await leave(page);
+});
+
+test("a view says that it loads", async () => {
+  const page = await visit("#/wear");
+  await page.getByRole("heading", { name: "Wear" }).first().waitFor();
+  let go = () => {};
+  const held = new Promise((resolve) => { go = resolve; });
+  await page.route("**/v1/parameters", async (route) => { await held; await route.continue(); });
+  await page.evaluate(() => { location.hash = "#/new"; });
+  await page.locator("#main").getByText("Loading …").waitFor();
+  go();
+  await page.getByRole("heading", { name: "New sweep" }).waitFor();
+  assert.equal(await page.getByText("Loading …").count(), 0);
+  await leave(page);
+});
