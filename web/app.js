@@ -19,6 +19,7 @@ const pages = {
   fits: () => import("/pages/fits.js"),
   measurements: () => import("/pages/measurements.js"),
   jobs: () => import("/pages/job.js"),
+  help: () => import("/pages/help.js"),
 };
 
 /** @type {HTMLElement} */
@@ -28,12 +29,12 @@ let shown = 0;
 const againMs = 2000;
 
 /// Kinds of pages with a link of their own in the navigation.
-const linked = ["new", "searches", "wear", "optimisations", "fits", "measurements"];
+const linked = ["new", "searches", "wear", "optimisations", "fits", "measurements", "help"];
 
 function markNavigation(kind) {
   for (const link of /** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll("header nav a"))) {
     const target = link.hash.slice(2);
-    if (target === (linked.includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
+    if (link.hash !== "" && target === (linked.includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
 }

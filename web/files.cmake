@@ -26,6 +26,7 @@ set(page_files
   core/route.js
   core/theme.js
   core/uplot.js
+  docs/docs.css
   docs/docs.js
   docs/index.html
   form/estimate.js
@@ -61,6 +62,7 @@ set(page_files
   measure/upload_form.js
   pages/analyses.js
   pages/fits.js
+  pages/help.js
   pages/job.js
   pages/measurements.js
   pages/new_sweep.js

@@ -462,6 +462,8 @@ test("a wear study is begun in its form, draws the bore and is deleted", async (
   assert.deepEqual(study.request, { name: "worn", parameters: short, worn_clearance_mm: 0.254, max_depth_step_um: 2 });
   assert.equal(await page.getByRole("region", { name: "Cycles" }).getByRole("row").count(), 1 + study.cycles.length);
   await page.getByRole("combobox", { name: "Ring" }).selectOption("1");
+  const bore = await textOf(page, () => page.getByRole("button", { name: "SVG" }).first().click());
+  assert.ok(bore.text.includes(">0°<") && bore.text.includes(">330°<") && !bore.text.includes(">360°<"), "0° and 360° are one place");
   await expectAccessible(page);
   await picture(page, "wear", { fullPage: true });
   await page.getByRole("button", { name: "Delete" }).click();

@@ -55,7 +55,8 @@ function spectrum(job, columns, signal) {
   const option = () => found
     && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 },
       tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
-    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]"),
+    dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]",
+      { max: "dataMax", axisLabel: { color: colour("text"), hideOverlap: true, formatter: (value) => number(value) } }),
     yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`,
       { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
     series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 },
@@ -71,7 +72,7 @@ function section(job, signal) {
   const view = { phase: 0 };
   let found = null;
   let chart = null;
-  const drawing = h("div", { class: "chart tall" });
+  const drawing = h("div", { class: "chart square" });
   const trouble = h("p", { class: "trouble", role: "status" });
   const load = latest(async (current) => {
     found = await findMotion(job.id, "poincare", { phase_rad: view.phase, from: job.parameters.run_up_s }, current);
@@ -88,10 +89,14 @@ function section(job, signal) {
   const radius = job.parameters.clearance_mm;
   const circle = Array.from({ length: 73 },
     (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
+  // As much room beside the drawing as above and below it, and axes of one length: the circle is round.
+  const half = () => 1.1 * Math.max(radius, ...[...found.journal_x_mm, ...found.journal_y_mm].map(Math.abs));
+  const ends = () => ({ min: -half(), max: half(),
+    axisLabel: { color: colour("text"), hideOverlap: true, showMinLabel: false, showMaxLabel: false, formatter: (value) => number(value, 2) } });
   const option = () => found
-    && ({ grid: { left: 75, right: 20, top: 20, bottom: 50 },
+    && ({ grid: { left: 75, right: 20, top: 20, bottom: 75 },
       tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
-    xAxis: acrossAxis(titleOf("journal_x_mm")), yAxis: valueAxis(titleOf("journal_y_mm")),
+    xAxis: acrossAxis(titleOf("journal_x_mm"), ends()), yAxis: valueAxis(titleOf("journal_y_mm"), ends()),
     series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"),
       lineStyle: { width: 1, type: "dashed" }, data: circle },
       { type: "scatter", symbolSize: 7, color: lineColour(0),

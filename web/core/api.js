@@ -223,6 +223,10 @@ export const exampleLinkage = (name, signal) => ask(addressOf(`/linkages/${name}
 export const requestSchemas = (signal) => ask(addressOf("/v1/openapi.json"), { signal })
   .then(({ components }) => components.schemas);
 
+/// Version of the program that serves this page.
+/** @type {(signal: AbortSignal) => Promise<string>} */
+export const programVersion = (signal) => ask(addressOf("/v1/openapi.json"), { signal }).then(({ info }) => info.version);
+
 /** @type {Promise<any> | null} */
 let schema = null;
 

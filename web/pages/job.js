@@ -2,7 +2,7 @@
 // One job, or several laid over each other: what the slider and the journal did, and why.
 import { cancelJob, findJob, findSweep, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
 import { choice, h, notify, part } from "/core/dom.js";
-import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
+import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { pause, persist, seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
@@ -86,8 +86,8 @@ class JobPage {
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible")
       .map((link) => `flexible ${link}, `).join("");
     const title = typeof linkage === "object" ? titleOfLinkage(linkage)
-      : `${coupler} coupler, ${bent}clearance ${exact(clearance)} mm, ${velocity === undefined
-        ? `crank by ${drive?.law ?? drive?.actuator}` : `${exact(velocity)} rad/s`}`;
+      : `${coupler} coupler, ${bent}clearance ${number(clearance, 6)} mm, ${velocity === undefined
+        ? `crank by ${drive?.law ?? drive?.actuator}` : `${number(velocity, 6)} rad/s`}`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;

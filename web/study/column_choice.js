@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choice of the columns of a table.
 import { h } from "/core/dom.js";
+import { defines } from "/core/quantities.js";
 
 /// @param all  gives the names of all columns  @param changed  is called when the choice has changed
 /** @param {{ all: () => string[], titleOf: (column: string) => string, changed: () => void }} given */
@@ -27,7 +28,7 @@ export function columnChoice({ all, titleOf, changed }) {
       const box = h("input", { type: "checkbox", value: column,
         onchange: () => { if (box.checked) hidden.delete(column); else hidden.add(column); changed(); } });
       box.checked = !hidden.has(column);
-      return h("label", {}, box, ` ${titleOf(column)}`);
+      return h("label", defines("metrics", column), box, ` ${titleOf(column)}`);
     }));
   }
 

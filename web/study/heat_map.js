@@ -10,13 +10,17 @@ import { extremesOf, widened } from "/study/span.js";
 const mostPanels = 12;
 const fewCells = 400;  // with lines between them
 const mostLabels = 12;
+// Pixels: of the least height of a panel, its title, and what stands below all panels.
+const [leastPanel, titleHeight, below] = [120, 24, 150];
+const usualHeight = 416;
 
 /** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
 export function heatMap(element, sweep, signal) {
   /** @type {Group[][]} */
   let cells = [];
   const made = makeChart(element, () => {
-    const plan = planOf(sweep);
+    const plan = planOf(sweep, element.clientWidth);
+    element.style.height = `${plan.height ?? usualHeight}px`;
     cells = plan.cells;
     return plan.option;
   }, "Heat map of the metric over two axes; the table below has the same numbers", signal);
@@ -27,8 +31,8 @@ export function heatMap(element, sweep, signal) {
   return made;
 }
 
-/** @param {SweepPage} sweep */
-function planOf(sweep) {
+/** @param {SweepPage} sweep  @param {number} width */
+function planOf(sweep, width) {
   const { rows, view, selection } = sweep;
   const xs = valuesOf(rows, view.x);
   const ys = view.y ? valuesOf(rows, view.y) : [""];
@@ -36,14 +40,20 @@ function planOf(sweep) {
   const panels = allPanels.slice(0, mostPanels);
   const groups = groupBy(rows, [view.x, view.y, view.panel].filter(Boolean), view.metric)
     .filter((group) => group.mean !== null);
-  const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel));
+  const isChosen = (group) => group.jobs.some((job) => selection.has(job));
+  // Selected cells last: drawn before their neighbours, their frames would be covered.
+  const cells = panels.map((panel) => groups.filter((group) => !view.panel || group.values.at(-1) === panel))
+    .map((ofPanel) => [...ofPanel.filter((group) => !isChosen(group)), ...ofPanel.filter(isChosen)]);
   const [placeOfX, placeOfY] = [places(xs), places(ys)];
   const ends = extremesOf(groups.map((group) => group.mean).filter((mean) => mean !== null));
   if (groups.length === 0) return { cells, option: nothingYet(whyEmpty(sweep)) };
-  const grids = gridsOf(view, xs, ys, panels);
-  return { cells, option: {
+  const columns = Math.min(panels.length, width < 480 ? 2 : 3);
+  const lines = Math.ceil(panels.length / columns);
+  const height = Math.max(usualHeight, below + lines * (leastPanel + titleHeight));
+  const { title, ...grids } = gridsOf(view, xs, ys, panels, { columns, lines, width, height });
+  return { cells, height, option: {
     ...grids,
-    title: [metricTitle(sweep, groups), ...grids.title],
+    title: [metricTitle(sweep, groups), ...title],
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
     visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0,
       precision: 3,
@@ -90,21 +100,24 @@ function withRoom(values, most, show = true) {
   return { ...look, axisLabel: { ...look.axisLabel, show, interval: Math.ceil(values.length / most) - 1 } };
 }
 
-function gridsOf(view, xs, ys, panels) {
-  const columns = Math.min(panels.length, 3);
-  const lines = Math.ceil(panels.length / columns);
-  const place = (index) => ({ left: `${12 + (index % columns) * (87 / columns)}%`, width: `${87 / columns - 3}%`,
-    top: `${8 + Math.floor(index / columns) * (76 / lines)}%`, height: `${76 / lines - 16}%` });
+/// Grids, axes and titles of the panels. Only the outer ones have axes with numbers and names.
+function gridsOf(view, xs, ys, panels, { columns, lines, width, height }) {
+  const step = (height - below) / lines;
+  const part = 87 / columns;
+  const isLowest = (index) => index + columns >= panels.length;
+  const place = (index) => ({ left: `${12 + (index % columns) * part}%`, width: `${part - 3}%`,
+    top: Math.floor(index / columns) * step + titleHeight, height: step - titleHeight - 4 });
   return {
     title: panels.map((panel, index) => ({ text: view.panel ? pointOf(view.panel, panel) : "", left: place(index).left,
-      top: `${Math.floor(index / columns) * (76 / lines)}%`, textStyle: { fontSize: 13, color: colour("text") } })),
+      top: Math.floor(index / columns) * step + 2, padding: 0,
+      textStyle: { fontSize: 13, width: ((part - 1) / 100) * width, overflow: "truncate", color: colour("text") } })),
     grid: panels.map((_, index) => place(index)),
     xAxis: panels.map((_, index) =>
-      ({ gridIndex: index, type: "category", data: xs.map(shortly), name: titleOf(view.x), nameLocation: "middle",
-        nameGap: 28, ...withRoom(xs, mostLabels / columns) })),
+      ({ gridIndex: index, type: "category", data: xs.map(shortly), name: isLowest(index) ? titleOf(view.x) : "", nameLocation: "middle",
+        nameGap: 28, ...withRoom(xs, mostLabels / columns, isLowest(index)) })),
     yAxis: panels.map((_, index) =>
       ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0
         && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 52,
-        ...withRoom(ys, mostLabels, index % columns === 0) })),
+        ...withRoom(ys, lines > 1 ? mostLabels / 2 : mostLabels, index % columns === 0) })),
   };
 }

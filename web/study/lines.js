@@ -103,7 +103,7 @@ function keyAbove({ rows, others }, roles, lines, width) {
   const hasLegend = !roles.isScale || names.length > 1;
   const numbers = (values) => values.filter((value) => typeof value === "number");
   return { height: barHeight + (hasLegend ? legend.height : 0),
-    legend: { ...legend.option, show: hasLegend, top: barHeight, data: names.map((name) => entryOf(name, roles, lines)) },
+    legend: { ...legend.option, show: hasLegend, top: barHeight, ...(roles.isScale ? { itemWidth: 40 } : {}), data: names.map((name) => entryOf(name, roles, lines)) },
     graphic: roles.isScale ? colourBar(roles.colour, numbers(valuesOf([...rows, ...(others?.rows ?? [])], roles.colour)),
       numbers(lines.map(({ values }) => values[0])), width, left) : [] };
 }

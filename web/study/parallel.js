@@ -15,7 +15,7 @@ export function parallelChart(element, sweep, signal) {
   let shown = [];
   let brushing = false;
   const made = makeChart(element, () => {
-    const plan = planOf(sweep);
+    const plan = planOf(sweep, element.clientWidth);
     shown = plan.shown;
     return plan.option;
   }, "Parallel coordinates of all jobs; the table below has the same numbers", signal);
@@ -31,10 +31,10 @@ export function parallelChart(element, sweep, signal) {
 }
 
 // Beyond the extremes there is room, from where a brush can begin.
-const room = ({ min, max }) => 0.05 * (max - min || Math.abs(max) || 1);
+const beyond = ({ min, max }) => 0.05 * (max - min || Math.abs(max) || 1);
 const ends = (extremes) => widened(extremes) ?? extremes;
-const roomy = { scale: true, min: (extremes) => ends(extremes).min - room(ends(extremes)),
-  max: (extremes) => ends(extremes).max + room(ends(extremes)) };
+const roomy = { scale: true, min: (extremes) => ends(extremes).min - beyond(ends(extremes)),
+  max: (extremes) => ends(extremes).max + beyond(ends(extremes)) };
 
 /// The columns, those that most jobs have a value of first: a line then ends where its job has no further values.
 /// One that would lead across a gap
@@ -68,24 +68,28 @@ export function parallelNote(sweep) {
       + `out.`].filter(Boolean).join(" ");
 }
 
-function dimensionOf({ name, values, isNumeric }, dim) {
+/// An axis, with its name above or below it in turn. @param room  pixels from one axis to the next but one
+function dimensionOf({ name, values, isNumeric }, dim, room) {
   return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start",
-    nameTextStyle: { color: colour("text") },
+    nameTextStyle: { color: colour("text"), fontSize: 11, width: Math.max(36, Math.min(150, room - 8)), overflow: "break" },
     axisLine: { lineStyle: { color: colour("quiet") } },
-    axisLabel: { color: colour("text"), formatter: (value) => (isNumeric ? number(value) : exact(value)),
+    // On ground of their own, for lines run below them.
+    axisLabel: { color: colour("text"), backgroundColor: colour("card"), padding: [1, 3], borderRadius: 2, formatter: (value) => (isNumeric ? number(value) : exact(value)),
       ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
 
-/** @param {SweepPage} sweep */
-function planOf(sweep) {
+const [left, right] = [60, 90];
+
+/** @param {SweepPage} sweep  @param {number} width */
+function planOf(sweep, width) {
   const { view, selection } = sweep;
   const { columns, shown } = layOut(sweep);
   if (shown.length === 0) return { shown, option: nothingYet(whyEmpty(sweep)) };
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
   return { shown, option: {
-    parallel: { left: 60, right: 90, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
-    parallelAxis: columns.map(dimensionOf),
+    parallel: { left, right, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
+    parallelAxis: columns.map((column, dim) => dimensionOf(column, dim, (2 * (width - left - right)) / Math.max(1, columns.length - 1))),
     visualMap: { show: false, ...ends(extremesOf(peaks)),
       dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000,
@@ -96,7 +100,7 @@ function planOf(sweep) {
 
 /// Options of all axes.
 function axisDefaults() {
-  return { nameLocation: "start", nameGap: 18, nameTextStyle: { fontSize: 11, width: 110, overflow: "break" },
+  return { nameLocation: "start", nameGap: 18,
     areaSelectStyle: { color: colour("accent"), opacity: 0.35 } };
 }
 

@@ -102,7 +102,11 @@ export function scatterChoice(sweep, changed) {
   function draw() {
     const { x, y, c } = namesOf(sweep);
     const all = [...sweep.axes, ...sweep.metrics].map((name) => [name, titleOf(name)]);
-    const select = (label, key, value, options) => choice(label, options, value, (chosen) => { sweep.view[key] = chosen; changed(); });
+    const select = (label, key, value, options) => {
+      const labelled = choice(label, options, value, (chosen) => { sweep.view[key] = chosen; changed(); });
+      Object.assign(labelled.dataset, { kind: "metrics", quantity: value });
+      return labelled;
+    };
     if (element.contains(document.activeElement)) return;  // the select that has the focus keeps it
     element.replaceChildren(select("Along", "scatterX", x, all), select("Upwards", "scatterY", y, all),
       select("Colour", "scatterColour", c || "none", [["none", "none"], ...all]));

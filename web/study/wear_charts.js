@@ -45,10 +45,11 @@ function mapOption(cycles, ring) {
     legend: { top: 0, type: "scroll" }, polar: { radius: ["25%", "78%"] },
     tooltip: { formatter: (
       { seriesName, value }) => `${seriesName}\n${number(value[1] % 360, 3)}°: ${number(value[0])} µm` },
-    angleAxis: { type: "value", min: 0, max: 360, interval: 30, startAngle: 0, clockwise: false, axisLabel: text,
+    angleAxis: { type: "value", min: 0, max: 360, interval: 30, startAngle: 0, clockwise: false,
+      axisLabel: { ...text, formatter: (angle) => (angle === 360 ? "" : `${angle}°`) },
       axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { min: 0, name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text,
-      axisLabel: { ...text, formatter: (value) => number(value, 2) },
+    radiusAxis: { min: 0, splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text,
+      axisLabel: { ...text, hideOverlap: true, formatter: (value) => number(value, 2) },
       splitLine: { lineStyle: { color: colour("line") } } },
     series: chosen(cycles)
       .map((cycle, index) =>

@@ -107,7 +107,7 @@ TEST(Docs, ServeThePageWithAllItsParts) {
     EXPECT_EQ(response.status, 200) << (*found)[2];
     EXPECT_GT(response.body.size(), 100U) << (*found)[2];
   }
-  EXPECT_EQ(parts, 3U);
+  EXPECT_EQ(parts, 4U);
   EXPECT_EQ(page.body.find("//"), std::string::npos) << "of another site";
   for (const char* const forbidden : {"style=", "onclick", "<script>"})
     EXPECT_EQ(page.body.find(forbidden), std::string::npos);
