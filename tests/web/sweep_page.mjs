@@ -130,8 +130,11 @@ test("any number stands over any other in the scatter, whose click selects", asy
   await scatter.locator("canvas").waitFor();
   const points = async () => (await drawn(page, 3)).series[0];
   assert.equal((await points()).length, 550, "jobs without a contact force have no place");
+  assert.equal(await page.getByRole("combobox", { name: "Colour" }).inputValue(), "crank_velocity_rad_s");
   await page.getByRole("combobox", { name: "Along" }).selectOption("clearance_mm");
   await page.getByRole("combobox", { name: "Upwards" }).selectOption("crank_velocity_rad_s");
+  await page.getByRole("combobox", { name: "Colour" }).selectOption("none");
+  assert.equal((await drawn(page, 3)).series.length, 1);
   await page.getByRole("combobox", { name: "Colour" }).selectOption("coupler");
   await page.waitForURL(/scatter_x=clearance_mm&scatter_y=crank_velocity_rad_s&scatter_colour=coupler/);
   const { series, x, y } = await drawn(page, 3);
@@ -160,6 +163,13 @@ test("six hundred jobs are read on a phone, in the dark and on a wide screen", a
     await expectNoSideways(page);
     await expectAccessible(page);
     await picture(page, `six_hundred_${width}`);
+    for (const menu of [/^Curves: /, /^Columns: /]) {
+      await page.getByText(menu).click();
+      const box = await page.locator(".menu[open] > .card").boundingBox();
+      assert.ok(box.x >= 0 && box.x + box.width <= width, `a menu from ${box.x}, ${box.width} wide`);
+      await picture(page, `menu_${width}`);
+      await page.getByText(menu).click();
+    }
     await leave(page);
   }
 });

@@ -27,10 +27,11 @@ export function scatterChart(element, sweep, signal) {
 /// What the axes and the colour show: as chosen, else the metric over the first axis.
 /** @param {SweepPage} sweep */
 function namesOf({ view, axes, metrics }) {
-  const varied = axes.filter((axis) => axis !== view.scatterX);
   const other = metrics.find((metric) => metric !== view.metric && /^peak_.*force/.test(metric)) ?? view.x;
-  return { x: view.scatterX || other, y: view.scatterY || view.metric,
-    c: view.scatterColour === "none" ? "" : view.scatterColour || (varied.includes(view.x) ? view.x : varied[0] ?? "") };
+  const x = view.scatterX || other;
+  const varied = axes.filter((axis) => axis !== x);
+  const usual = varied.includes(view.x) ? view.x : varied[0] ?? "";
+  return { x, y: view.scatterY || view.metric, c: view.scatterColour === "none" ? "" : view.scatterColour || usual };
 }
 
 /** @param {SweepPage} sweep  @param {number} width */
