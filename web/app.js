@@ -34,7 +34,8 @@ const linked = ["new", "searches", "wear", "optimisations", "fits", "measurement
 function markNavigation(kind) {
   for (const link of /** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll("header nav a"))) {
     const target = link.hash.slice(2);
-    if (link.hash !== "" && target === (linked.includes(kind) ? kind : "")) link.setAttribute("aria-current", "page");
+    if (link.hash !== "" && target === (linked.includes(kind) ? kind : "")) link.setAttribute("aria-current",
+      "page");
     else link.removeAttribute("aria-current");
   }
 }

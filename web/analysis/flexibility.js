@@ -24,7 +24,8 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
   const said = reversed.length === 0
     ? "No reversal: the ratio does not cross 1 by more than 0.1 %, the accuracy of peaks."
     : `Reversal: ${reversed.map((row) => reversalOf(row, axes)).join("; ")}.`;
-  element.replaceChildren(h("p", {}, along ? said : ""), single > 0 ? h("p", { role: "note" }, singleText(single, rows.length)) : "",
+  element.replaceChildren(h("p", {}, along ? said : ""), single > 0
+    ? h("p", { role: "note" }, singleText(single, rows.length)) : "",
     drawing,
     table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible / rigid", (row) => number(row.ratio)],
     ["Range", (row) => (isSingle(row) ? "–" : `${number(row.ratio_least)} to ${number(row.ratio_largest)}`)],
@@ -43,7 +44,8 @@ const isSingle = (row) => Number(row.rigid_count) < 2 || Number(row.flexible_cou
 
 /** @param {number} single  @param {number} all */
 function singleText(single, all) {
-  const which = single === all ? "Each ratio comes" : `${single.toLocaleString("en")} of ${all.toLocaleString("en")} ratios come`;
+  const which = single === all ? "Each ratio comes"
+    : `${single.toLocaleString("en")} of ${all.toLocaleString("en")} ratios come`;
   return `${which} from one run each, which may scatter by more than they differ: replicates give a verdict.`;
 }
 
@@ -52,7 +54,8 @@ function singleText(single, all) {
 function verdictOf(row) {
   if (row.ratio === null) return "–";
   if (isSingle(row)) return "one run each";
-  return row.verdict === "either" && Number(row.ratio_least) >= 0.999 && Number(row.ratio_largest) <= 1.001 ? "no difference" : row.verdict ?? "–";
+  return row.verdict === "either" && Number(row.ratio_least) >= 0.999 && Number(row.ratio_largest) <= 1.001
+    ? "no difference" : row.verdict ?? "–";
 }
 
 /// Between which two values of a parameter the ratio passes 1.
@@ -73,7 +76,8 @@ function optionOf(rows, axes, along, metric) {
     tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
     xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(`${nameOf(metric)}, flexible / rigid`),
     series: [...lines].flatMap(([name, line], index) =>
-      [bars(lineColour(index), line.filter((row) => !isSingle(row)).map((row) => [row[along], row.ratio_least, row.ratio_largest])),
+      [bars(lineColour(index), line.filter((row) => !isSingle(row)).map((row) => [row[along],
+        row.ratio_least, row.ratio_largest])),
       { name, type: "line", color: lineColour(index), symbolSize: 8, data: line.map((row) => [row[along], row.ratio]),
         ...(index === 0 ? { markLine: { symbol: "none", silent: true, label: { show: false },
           lineStyle: { color: colour("quiet") }, data: [{ yAxis: 1 }] } } : {}) }]),

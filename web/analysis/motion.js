@@ -56,7 +56,8 @@ function spectrum(job, columns, signal) {
     && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 },
       tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
     dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]",
-      { max: "dataMax", axisLabel: { color: colour("text"), hideOverlap: true, formatter: (value) => number(value) } }),
+      { max: "dataMax", axisLabel: { color: colour("text"), hideOverlap: true,
+        formatter: (value) => number(value) } }),
     yAxis: valueAxis(`Amplitude: ${titleOf(found.channel)}`,
       { type: "log", nameGap: 60, axisLabel: { color: colour("text"), formatter: (value) => number(value, 2) } }),
     series: [{ type: "line", showSymbol: false, color: lineColour(0), lineStyle: { width: 1 },
@@ -92,7 +93,8 @@ function section(job, signal) {
   // As much room beside the drawing as above and below it, and axes of one length: the circle is round.
   const half = () => 1.1 * Math.max(radius, ...[...found.journal_x_mm, ...found.journal_y_mm].map(Math.abs));
   const ends = () => ({ min: -half(), max: half(),
-    axisLabel: { color: colour("text"), hideOverlap: true, showMinLabel: false, showMaxLabel: false, formatter: (value) => number(value, 2) } });
+    axisLabel: { color: colour("text"), hideOverlap: true, showMinLabel: false, showMaxLabel: false,
+      formatter: (value) => number(value, 2) } });
   const option = () => found
     && ({ grid: { left: 75, right: 20, top: 20, bottom: 75 },
       tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },

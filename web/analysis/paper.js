@@ -25,8 +25,10 @@ export async function paperCard(element, { sweep }, signal) {
   const [numbered, others] = split(rows);
   const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }),
     download: `${sweep.name || sweep.id} paper.csv` };
-  const note = singleRuns(sweep) ? [h("p", { role: "note" }, "One run each: replicates would show which ratios scatter.")] : [];
-  element.replaceChildren(...note, statements("The paper's statements", numbered, [["No.", (row) => row.number, "of"]]),
+  const note = singleRuns(sweep)
+    ? [h("p", { role: "note" }, "One run each: replicates would show which ratios scatter.")] : [];
+  element.replaceChildren(...note, statements("The paper's statements", numbered,
+    [["No.", (row) => row.number, "of"]]),
     ...(others.length === 0 ? []
       : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
       statements("Other velocities", others)]),

@@ -68,8 +68,10 @@ function optionOf(rows) {
     legend: { top: 0 }, polar: { radius: ["25%", "80%"] },
     tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
     angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false,
-      axisLabel: { ...text, interval: Math.max(0, Math.round(sectors.length / 12) - 1), hideOverlap: true }, axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text,
+      axisLabel: { ...text, interval: Math.max(0, Math.round(sectors.length / 12) - 1), hideOverlap: true },
+        axisLine: { lineStyle: { color: colour("quiet") } } },
+    radiusAxis: { splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24,
+      nameTextStyle: text,
       axisLabel: { ...text, hideOverlap: true, formatter: (value) => number(value, 2) },
       splitLine: { lineStyle: { color: colour("line") } } },
     series: rings.map((ring, index) =>

@@ -225,7 +225,8 @@ export const requestSchemas = (signal) => ask(addressOf("/v1/openapi.json"), { s
 
 /// Version of the program that serves this page.
 /** @type {(signal: AbortSignal) => Promise<string>} */
-export const programVersion = (signal) => ask(addressOf("/v1/openapi.json"), { signal }).then(({ info }) => info.version);
+export const programVersion = (signal) => ask(addressOf("/v1/openapi.json"),
+  { signal }).then(({ info }) => info.version);
 
 /** @type {Promise<any> | null} */
 let schema = null;

@@ -50,7 +50,8 @@ export function axisLook() {
  * @param {AbortSignal} signal
  */
 export async function makeChart(element, makeOption, label, signal) {
-  if (!element.hasChildNodes()) element.append(h("p", { class: "quiet small loading" }, "Loading the chart …"));
+  if (!element.hasChildNodes()) element.append(h("p", { class: "quiet small loading" },
+    "Loading the chart …"));
   const echarts = await loadCharts();
   element.replaceChildren();
   const chart = echarts.init(element);

@@ -11,16 +11,22 @@ export class ListOrder {
   /** @type {Map<string, HTMLElement>} */
   #headings = new Map();
 
-  /// @param keys  of the order, with the heading and the value of an item  @param chosen  "name", or "-created" for the
+  /// @param keys  of the order, with the heading and the value of an item  @param chosen  "name", or
+  /// "-created" for the
   /// largest first  @param changed  is called when another order has been chosen
-  /** @param {Record<string, [string, (item: Item) => string | number]>} keys  @param {string | null} chosen  @param {(chosen: string) => void} changed */
+  /**
+   * @param {Record<string, [string, (item: Item) => string | number]>} keys
+   * @param {string | null} chosen
+   * @param {(chosen: string) => void} changed
+   */
   constructor(keys, chosen, changed) {
     this.keys = keys;
     this.changed = changed;
     this.usual = "-created";
     this.chosen = chosen && chosen.replace("-", "") in keys ? chosen : this.usual;
     const options = Object.entries(keys).flatMap(([key, [text]]) =>
-      (key === "created" ? [["-created", "newest first"], ["created", "oldest first"]] : [[key, `${text}, up`], [`-${key}`, `${text}, down`]]));
+      (key === "created" ? [["-created", "newest first"], ["created", "oldest first"]]
+        : [[key, `${text}, up`], [`-${key}`, `${text}, down`]]));
     this.element = choice("Sort by", options, this.chosen, (order) => this.set(order));
   }
 
@@ -50,7 +56,8 @@ export class ListOrder {
     for (const [key, button] of this.#headings) {
       const isChosen = this.chosen.replace("-", "") === key;
       button.textContent = this.keys[key][0] + (isChosen ? (this.chosen.startsWith("-") ? " ▼" : " ▲") : "");
-      if (isChosen) button.closest("th")?.setAttribute("aria-sort", this.chosen.startsWith("-") ? "descending" : "ascending");
+      if (isChosen) button.closest("th")?.setAttribute("aria-sort", this.chosen.startsWith("-")
+        ? "descending" : "ascending");
       else button.closest("th")?.removeAttribute("aria-sort");
     }
   }
@@ -59,7 +66,8 @@ export class ListOrder {
   ordered(items) {
     const valueOf = this.keys[this.chosen.replace("-", "")][1];
     const sign = this.chosen.startsWith("-") ? -1 : 1;
-    const compare = (a, b) => (typeof a === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true }));
+    const compare = (a, b) => (typeof a === "number" ? a - b : String(a).localeCompare(String(b), "en",
+      { numeric: true }));
     return [...items].sort((a, b) => sign * compare(valueOf(a), valueOf(b)));
   }
 }
@@ -73,7 +81,10 @@ export class Marked {
   #items = [];
   bar = h("p", { class: "actions card", hidden: true });
 
-  /// @param nouns  for one item and for several  @param mayGo  whether an item can be deleted  @param remove  deletes one  @param done  is called after that
+  /// @param nouns   for one item and for several
+  /// @param mayGo   whether an item can be deleted
+  /// @param remove  deletes one
+  /// @param done    is called after that
   /** @param {{ nouns: string[], mayGo: (item: Item) => boolean, remove: (id: string) => Promise<unknown>, done: () => unknown }} how */
   constructor({ nouns, mayGo, remove, done }) {
     this.nouns = nouns;
@@ -92,7 +103,8 @@ export class Marked {
   /// Box of an item. Its label is that of the item at that time.
   /** @param {Named} item */
   box({ id, name }) {
-    const box = h("input", { type: "checkbox", "data-id": id, "aria-label": `Select ${name || id}`, onchange: () => {
+    const box = h("input", { type: "checkbox", "data-id": id, "aria-label": `Select ${name || id}`,
+      onchange: () => {
       if (box.checked) this.#ids.add(id);
       else this.#ids.delete(id);
       this.draw();
@@ -120,17 +132,20 @@ export class Marked {
     this.bar.hidden = marked.length === 0;
     if (marked.length === 0) return;
     this.bar.replaceChildren(h("span", {}, `${this.count(marked.length)} selected`),
-      h("button", { class: "danger", disabled: staying === marked.length, onclick: () => this.#removeAll() }, "Delete selected"),
+      h("button", { class: "danger", disabled: staying === marked.length, onclick: () => this.#removeAll() },
+        "Delete selected"),
       h("button", { onclick: () => { this.#ids.clear(); this.draw(); } }, "Clear selection"),
       staying > 0 ? h("span", { class: "quiet small" },
-        `${staying === marked.length ? "None can be deleted" : `${this.count(staying)} cannot be deleted`}: under way, or part of a study.`) : "");
+        `${staying === marked.length ? "None can be deleted" : `${this.count(staying)} cannot be deleted`}: under way, or part of a study.`)
+          : "");
   }
 
   async #removeAll() {
     const going = this.#items.filter((item) => this.#ids.has(item.id) && this.mayGo(item));
     const names = going.slice(0, 3).map(({ id, name }) => `“${name || id}”`).join(", ");
     const more = going.length > 3 ? ` and ${going.length - 3} more` : "";
-    if (!(await confirmed(`Delete ${this.count(going.length)}: ${names}${more}? Results that no others share are deleted, too.`, "Delete"))) return;
+    if (!(await confirmed(`Delete ${this.count(going.length)}: ${names}${more}? Results that no others share are deleted, too.`,
+      "Delete"))) return;
     for (const { id } of going) {
       try {
         await this.remove(id);

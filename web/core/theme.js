@@ -62,8 +62,8 @@ export function palette() {
   return palettes[selectOf("palette").value];
 }
 
-/// The palette for lines: without its dark end on dark ground, and without its bright end on bright ground, where
-/// these would not be seen.
+/// The palette for lines: without its dark end on dark ground, and without its bright end on bright ground.
+/// These would not be seen.
 export function linePalette() {
   return isDark() ? palette().slice(3) : palette().slice(0, 7);
 }

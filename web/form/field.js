@@ -39,7 +39,8 @@ export function fieldRow(field, entry, changed) {
     if (field.kind === "words") return values.replaceChildren(...field.schema.enum.map(wordBox));
     if (entry.mode !== "range") {
       const usual = converted(String(field.default ?? ""), 1 / factorOf(field, entry.unit));
-      const hint = entry.mode === "list" ? "0, 0.1, 0.2" : factorOf(field, entry.unit) === 1 ? String(field.default ?? "") : usual;
+      const hint = entry.mode === "list" ? "0, 0.1, 0.2" : factorOf(field, entry.unit) === 1
+        ? String(field.default ?? "") : usual;
       return values.replaceChildren(
         input("text", name, { type: "text", id, inputmode: entry.mode === "one" ? "decimal" : null,
           placeholder: hint }), ...unitChoice());
@@ -50,7 +51,8 @@ export function fieldRow(field, entry, changed) {
     scale.value = entry.scale;
     return values.replaceChildren(labelled("from", input("from", `${name}: from`, { type: "text" })),
       labelled("to", input("to", `${name}: to`, { type: "text" })),
-      labelled("count", input("count", `${name}: count`, { type: "number", min: 1 })), scale, ...unitChoice());
+      labelled("count", input("count", `${name}: count`, { type: "number", min: 1 })), scale,
+        ...unitChoice());
   }
 
   function wordBox(word) {

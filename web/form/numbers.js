@@ -9,8 +9,8 @@ export function readNumber(text) {
   return Number(/^[^.,]*,[^.,]*$/.test(typed) ? typed.replace(",", ".") : typed);
 }
 
-/// Numbers of a list. Commas before a space separate, as do semicolons and spaces; between digits they are decimal, where
-/// semicolons separate, and separate, where numbers have decimal points or there are several.
+/// Numbers of a list. Commas before a space separate, as do semicolons and spaces; between digits they are
+/// decimal, where semicolons separate, and separate, where numbers have decimal points or there are several.
 /** @param {string} text  @returns {{ values: number[], fault: string }} */
 export function readList(text) {
   const pieces = text.split(/[;\s]+|,(?=\s|$)/).filter((piece) => piece && piece !== ",");
@@ -20,7 +20,8 @@ export function readList(text) {
     const inside = piece.split(",");
     if (inside.length === 2 && text.includes(";")) values.push(readNumber(piece));
     else if (inside.length === 2 && !piece.includes(".") && /^[-−+]?\d+,\d+$/.test(piece)) {
-      return { values: [], fault: `“${piece}” may be one number or two: write ${inside.join(".")}, or ${inside.join("; ")}` };
+      return { values: [],
+        fault: `“${piece}” may be one number or two: write ${inside.join(".")}, or ${inside.join("; ")}` };
     } else values.push(...inside.map(readNumber));
   }
   return { values, fault: "" };
@@ -37,7 +38,8 @@ export const unitsOf = ({ unit }) => [unit, ...(entryUnits[unit] ?? []).map(([na
 
 /// What a number in some unit is multiplied with to be in the unit of the field.
 /** @param {{ unit: string }} field  @param {string} [unit]  @returns {number} */
-export const factorOf = (field, unit) => (entryUnits[field.unit] ?? []).find(([name]) => name === unit)?.[1] ?? 1;
+export const factorOf = (field, unit) => (entryUnits[field.unit] ?? []).find(([name]) => name === unit)?.[1]
+  ?? 1;
 
 /// Numbers in a text, from one unit to another, in at most 12 digits; as it is, if it has none.
 /** @param {string} text  @param {number} factor */

@@ -44,7 +44,8 @@ function addReplicates(state, request, problems) {
       if (!Number.isFinite(read)) problems.push({ path: `replicates: ${name}`, detail: "must be a number" });
       return read;
     };
-    request.replicates = { count: Number(count), perturbation: number("perturbation", perturbation), seed: number("seed", seed), only };
+    request.replicates = { count: Number(count), perturbation: number("perturbation", perturbation),
+      seed: number("seed", seed), only };
     const tolerance = number("factor of the tolerances", factor);
     if (tolerance !== 1) request.replicates.tolerance_factor = tolerance;
   }
@@ -61,11 +62,13 @@ function addEntry(field, entry, request, refuse) {
     return;
   }
   const isAxis = entry.mode === "list" && field.kind !== "numbers";
-  const { values: typed, fault: unclear } = isAxis || field.kind === "numbers" || !isOneNumber(entry.text) ? readList(entry.text)
+  const { values: typed, fault: unclear } = isAxis || field.kind === "numbers" || !isOneNumber(entry.text)
+    ? readList(entry.text)
     : { values: [readNumber(entry.text)], fault: "" };
   const values = typed.map((value) => inUnit(field, entry, value));
   const fault = values.map((value) => faultOf(field, value)).find(Boolean);
-  const empty = isAxis && values.length === 0 ? "the list is empty: write values such as 0, 0.1, 0.2, or choose “one value”" : "";
+  const empty = isAxis && values.length === 0
+    ? "the list is empty: write values such as 0, 0.1, 0.2, or choose “one value”" : "";
   if (unclear || empty) refuse(unclear || empty);
   else if (fault) refuse(fault);
   else if (field.kind === "numbers" && values.length > 0) setAtPath(request.parameters, field.path, values);

@@ -196,7 +196,8 @@ export class RequestForm {
   /// Names the fields that keep the request from being sent; each of them says why.
   drawBlocked() {
     const atFields = [...new Set(this.problems.map(({ path }) => path).filter((path) => this.rows.has(path)))];
-    this.blocked.textContent = atFields.length === 0 ? "" : `Not ready to submit: see ${atFields.map((path) => nameOf(path)).join(", ")}.`;
+    this.blocked.textContent = atFields.length === 0 ? ""
+      : `Not ready to submit: see ${atFields.map((path) => nameOf(path)).join(", ")}.`;
   }
 
   drawSend() {

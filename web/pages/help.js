@@ -4,13 +4,17 @@ import { addressOf, programVersion } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { routeTo } from "/core/route.js";
 
-const words = [["Job", "One simulation."], ["Sweep", "A set of jobs over lists of values: a job for every combination."],
+const words = [["Job", "One simulation."],
+  ["Sweep", "A set of jobs over lists of values: a job for every combination."],
   ["Replicates", "Runs of the same job with a slightly different contact stiffness. Their spread shows how far a value scatters."],
   ["Metric", "One number of a job, such as a peak. Point at its name to read what it is."],
-  ["Channel", "One quantity of a job over time."], ["Run-up", "Time at the start of a job that metrics of the steady part leave out."],
+  ["Channel", "One quantity of a job over time."],
+    ["Run-up", "Time at the start of a job that metrics of the steady part leave out."],
   ["Journal and bearing", "Pin of the joint with clearance, and what it moves in."]];
-const inputs = [["drag across a plot or the strip", "look closer"], ["wheel", "zoom"], ["drag with Shift", "move"],
-  ["keys ← → + − 0", "move, zoom, all of it"], ["two fingers, one finger", "zoom, move"], ["click on a cell, a point or a row", "select its jobs in all views"],
+const inputs = [["drag across a plot or the strip", "look closer"], ["wheel", "zoom"],
+  ["drag with Shift", "move"],
+  ["keys ← → + − 0", "move, zoom, all of it"], ["two fingers, one finger", "zoom, move"],
+    ["click on a cell, a point or a row", "select its jobs in all views"],
   ["drag along an axis of parallel coordinates", "select the jobs between"]];
 
 /** @param {string} label  @param {string[]} headings  @param {string[][]} rows */
@@ -26,12 +30,17 @@ export function show(main, { signal }) {
   const version = h("p", { class: "quiet" });
   main.replaceChildren(h("h1", {}, "Help"),
     h("section", { class: "card" }, h("h2", {}, "How to begin"),
-      h("ol", {}, h("li", {}, h("a", { href: routeTo("new", "", { template: "paper" }) }, "Load the paper's sweep"), " and submit it: it takes seconds."),
+      h("ol", {}, h("li", {}, h("a", { href: routeTo("new", "", { template: "paper" }) },
+        "Load the paper's sweep"), " and submit it: it takes seconds."),
         h("li", {}, "Look at the sentences at the top of its page, then at the heat map and the lines. Select jobs, and open or overlay them."),
-        h("li", {}, "Duplicate it with other values, or ask for ", h("a", { href: routeTo("searches") }, "limits"), ", ",
-          h("a", { href: routeTo("optimisations") }, "optima"), " and ", h("a", { href: routeTo("fits") }, "fits to measurements"), ".")),
-      h("p", {}, "Scripts and notebooks use the ", h("a", { href: addressOf("/docs") }, "REST interface"), ", which has a page to try it with.")),
+        h("li", {}, "Duplicate it with other values, or ask for ",
+          h("a", { href: routeTo("searches") }, "limits"), ", ",
+          h("a", { href: routeTo("optimisations") }, "optima"), " and ",
+            h("a", { href: routeTo("fits") }, "fits to measurements"), ".")),
+      h("p", {}, "Scripts and notebooks use the ", h("a", { href: addressOf("/docs") }, "REST interface"),
+        ", which has a page to try it with.")),
     h("section", { class: "card" }, h("h2", {}, "Words"), table("Words", ["Word", "Meaning"], words)),
-    h("section", { class: "card" }, h("h2", {}, "Plots"), table("Plots", ["Input", "Effect"], inputs)), version);
+    h("section", { class: "card" }, h("h2", {}, "Plots"), table("Plots", ["Input", "Effect"], inputs)),
+      version);
   programVersion(signal).then((text) => { version.textContent = `RPSUP ${text}`; }).catch(() => {});
 }

@@ -29,7 +29,8 @@ function aimOf({ objectives, variables }) {
 
 const kind = {
   api: optimisations, route: "optimisations", title: "Optimisations",
-  question: "Values of parameters for which metrics are least or largest.", listName: "Optimisations", nouns: ["optimisation", "optimisations"],
+  question: "Values of parameters for which metrics are least or largest.", listName: "Optimisations",
+    nouns: ["optimisation", "optimisations"],
   aim: { heading: "Goal", textOf: aimOf }, answerOf: shortAnswerOf, none: "No optimisations yet.",
     begin: "New optimisation",
 };

@@ -28,7 +28,8 @@ function aimOf({ parameter, metric, bound }) {
 
 const kind = {
   api: searches, route: "searches", title: "Limits",
-  question: "Largest value of a parameter for which a metric stays within a bound.", listName: "Searches", nouns: ["search", "searches"],
+  question: "Largest value of a parameter for which a metric stays within a bound.", listName: "Searches",
+    nouns: ["search", "searches"],
   aim: { heading: "Target", textOf: aimOf }, none: "No searches yet.", begin: "New search",
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findAnalysis, findResults, findSweep, parameterSchema, resultsUrl, retrySweep } from "/core/api.js";
+import { cancelSweep, findAnalysis, findResults, findSweep, parameterSchema, resultsUrl,
+  retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
@@ -117,7 +118,8 @@ export class SweepPage {
     const save = saveButtons(() => this.charts[index],
       () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
     return h("section", { class: "card" },
-      h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, ...tools, save)), help, element);
+      h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, ...tools, save)), help,
+        element);
   }
 
   start() {
@@ -229,7 +231,8 @@ export class SweepPage {
     try {
       const rows = await findAnalysis(this.sweep.id, "paper", {}, this.signal);
       this.paper.replaceChildren(h("a", { href: routeTo("analyses", this.sweep.id) },
-        "The paper's statements"), `: ${[summaryOf(rows), singleRuns(this.sweep)].filter(Boolean).join("; ")}`);
+        "The paper's statements"),
+          `: ${[summaryOf(rows), singleRuns(this.sweep)].filter(Boolean).join("; ")}`);
       setSeen(this.paper, true);
     } catch {
       setSeen(this.paper, false);  // the page of the analyses says why

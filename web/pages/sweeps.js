@@ -57,7 +57,8 @@ class SweepList {
   none = h("p", { class: "card", hidden: true }, "No matching sweeps.");
   executors = executorsPanel();
   /** @type {Marked<Listing>} */
-  marked = new Marked({ nouns: ["sweep", "sweeps"], mayGo: (sweep) => !isUnderWay(sweep) && !sweep.study_id, remove: deleteSweep,
+  marked = new Marked({ nouns: ["sweep", "sweeps"], mayGo: (sweep) => !isUnderWay(sweep) && !sweep.study_id,
+    remove: deleteSweep,
     done: () => this.refresh() });
   empty = this.#makeWelcome();
 
@@ -99,17 +100,20 @@ class SweepList {
         (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       this.order.element, h("a", { class: "button main", href: "#/new" }, "New sweep"));
     this.order.draw();
-    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.marked.bar, this.table, this.none, this.more,
+    return [h("h1", {}, "Sweeps"), this.status, this.executors.element, tools, this.marked.bar, this.table,
+      this.none, this.more,
       this.empty];
   }
 
   changed() {
-    rememberQuery({ state: this.state, search: this.search, sort: this.order.isUsual ? "" : this.order.chosen });
+    rememberQuery({ state: this.state, search: this.search, sort: this.order.isUsual ? ""
+      : this.order.chosen });
     this.draw();
   }
 
   #query() {
-    return { limit: this.search || !this.order.isUsual ? mostSearched : this.limit, state: this.state || undefined };
+    return { limit: this.search || !this.order.isUsual ? mostSearched : this.limit, state: this.state
+      || undefined };
   }
 
   async refresh() {

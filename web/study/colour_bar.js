@@ -23,8 +23,15 @@ function labelled(values, at) {
   });
 }
 
-/// Elements of ECharts' "graphic". @param all  values of the axis, which span the bar  @param drawn  those with a tick
-/** @param {string} axis  @param {number[]} all  @param {number[]} drawn  @param {number} width  @param {number} left */
+/// Elements of ECharts' "graphic". @param all  values of the axis, which span the bar  @param drawn  those
+/// with a tick
+/**
+ * @param {string} axis
+ * @param {number[]} all
+ * @param {number[]} drawn
+ * @param {number} width
+ * @param {number} left
+ */
 export function colourBar(axis, all, drawn, width, left) {
   const length = Math.max(60, Math.min(widest, width - left - 40));
   const scale = scaleOf(all);
@@ -40,5 +47,6 @@ export function colourBar(axis, all, drawn, width, left) {
     { type: "rect", shape: { x: 0, y: barTop, width: length, height: barHeight }, style: { fill } },
     ...ticks.map((value) => ({ type: "line", style: { stroke: colour("text") },
       shape: { x1: at(value), x2: at(value), y1: barTop, y2: barTop + barHeight + 3 } })),
-    ...labelled(ticks, at).map((value) => text(number(value), at(value), barTop + barHeight + 5, "center"))] }];
+    ...labelled(ticks, at).map((value) => text(number(value), at(value), barTop + barHeight + 5,
+      "center"))] }];
 }

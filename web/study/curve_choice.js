@@ -11,7 +11,8 @@ const mostListed = 200;  // at once: a search narrows more of them
 /** @param {SweepPage} sweep  @param {() => void} changed */
 export function curveChoice(sweep, changed) {
   const summary = h("summary");
-  const search = h("input", { type: "search", "aria-label": "Search curves", placeholder: "Search", oninput: () => drawList() });
+  const search = h("input", { type: "search", "aria-label": "Search curves", placeholder: "Search",
+    oninput: () => drawList() });
   const list = h("div", { class: "list" });
   const more = h("p", { class: "quiet small" });
   const evenly = h("button", { onclick: () => set(null) }, "Evenly spread");
@@ -27,16 +28,20 @@ export function curveChoice(sweep, changed) {
   function drawList() {
     const { own, drawn, most, roles } = curvesOfSweep(sweep);
     const keys = drawn.map(({ key }) => key);
-    const named = own.map((curve) => ({ key: curve.key, name: nameOfCurve(curve, roles) || nameOf(sweep.view.metric) }))
+    const named = own.map((curve) => ({ key: curve.key, name: nameOfCurve(curve, roles)
+      || nameOf(sweep.view.metric) }))
       .filter(({ name }) => name.toLowerCase().includes(search.value.trim().toLowerCase()));
     const isFull = keys.length >= most;
     more.textContent = [isFull && `At most ${most} at once: take one out for another.`,
-      named.length > mostListed && `The first ${mostListed} of ${named.length.toLocaleString("en")}: search for others.`].filter(Boolean).join(" ");
+      named.length > mostListed
+        && `The first ${mostListed} of ${named.length.toLocaleString("en")}: search for others.`].filter(Boolean).join(" ");
     evenly.disabled = sweep.view.curves === null;
-    const focused = list.contains(document.activeElement) ? document.activeElement?.getAttribute("data-key") : null;
+    const focused = list.contains(document.activeElement) ? document.activeElement?.getAttribute("data-key")
+      : null;
     list.replaceChildren(...named.slice(0, mostListed).map(({ key, name }) => {
       const isDrawn = keys.includes(key);
-      const box = h("input", { type: "checkbox", "data-key": key, disabled: (isFull && !isDrawn) || (isDrawn && keys.length === 1),
+      const box = h("input", { type: "checkbox", "data-key": key, disabled: (isFull && !isDrawn)
+        || (isDrawn && keys.length === 1),
         onchange: () => set(isDrawn ? keys.filter((each) => each !== key) : [...keys, key]) });
       box.checked = isDrawn;
       return h("label", {}, box, ` ${name}`);

@@ -16,12 +16,18 @@ const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "arrow"];
 export function rolesOf({ rows, view }) {
   const keys = [...new Set([view.y, view.panel])].filter((key) => key && key !== view.x);
   const colour = keys.find((key) => hasScale(rows, key)) ?? keys[0] ?? "";
-  return { colour, style: keys.find((key) => key !== colour) ?? "", isScale: colour !== "" && hasScale(rows, colour) };
+  return { colour, style: keys.find((key) => key !== colour) ?? "",
+    isScale: colour !== "" && hasScale(rows, colour) };
 }
 
 /// Curves with a value at least; where jobs have none, a group without a mean stands in its place.
 /// @param name  of the sweep, where it is not the one that is looked at
-/** @param {Api.Row[]} rows  @param {SweepPage["view"]} view  @param {ReturnType<typeof rolesOf>} roles  @param {string} name */
+/**
+ * @param {Api.Row[]} rows
+ * @param {SweepPage["view"]} view
+ * @param {ReturnType<typeof rolesOf>} roles
+ * @param {string} name
+ */
 export function curvesOf(rows, view, { colour, style }, name = "") {
   const keys = [colour, style].filter(Boolean);
   /** @type {Map<string, Curve>} */
@@ -36,7 +42,8 @@ export function curvesOf(rows, view, { colour, style }, name = "") {
   const order = new Map(valuesOf(rows, view.x).map((value, place) => [value, place]));
   const place = (group) => order.get(group.values.at(-1)) ?? 0;
   const ranks = keys.map((key) => new Map(valuesOf(rows, key).map((value, rank) => [value, rank])));
-  const compare = (a, b) => ranks.map((rank, i) => (rank.get(a.values[i]) ?? 0) - (rank.get(b.values[i]) ?? 0))
+  const rankOf = (curve, rank, i) => rank.get(curve.values[i]) ?? 0;
+  const compare = (a, b) => ranks.map((rank, i) => rankOf(a, rank, i) - rankOf(b, rank, i))
     .find((difference) => difference !== 0) ?? 0;
   for (const curve of curves.values()) curve.groups.sort((a, b) => place(a) - place(b));
   return [...curves.values()].filter(({ groups }) => groups.some((group) => group.count > 0)).sort(compare);
@@ -46,7 +53,8 @@ export function curvesOf(rows, view, { colour, style }, name = "") {
 /** @param {Curve} curve  @param {ReturnType<typeof rolesOf>} roles */
 export function nameOfCurve({ values, sweep }, { colour, style }) {
   const keys = [colour, style].filter(Boolean);
-  return [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))), sweep].filter(Boolean).join(", ");
+  return [...keys.map((key, i) => (values[i] === none ? "" : pointOf(key, values[i]))),
+    sweep].filter(Boolean).join(", ");
 }
 
 /// So many of some places, evenly spread over them, with the one that must be among them.
@@ -64,7 +72,8 @@ function spread(count, most, must) {
 /** @param {Curve} curve */
 const largestOf = ({ groups }) => Math.max(...groups.map(({ max }) => max));
 
-/// Evenly spread curves, with the one of the largest value: all styles of a colour together, if there are few.
+/// Evenly spread curves, with the one of the largest value: all styles of a colour together, if there are
+/// few.
 /** @param {Curve[]} curves  @param {number} most */
 function spreadCurves(curves, most) {
   if (curves.length <= most) return curves;
@@ -73,7 +82,8 @@ function spreadCurves(curves, most) {
   const bundles = colours.map((value) => curves.filter(({ values }) => values[0] === value));
   const size = Math.max(...bundles.map(({ length }) => length));
   if (2 * size > most) return spread(curves.length, most, curves.indexOf(peak)).map((place) => curves[place]);
-  return spread(bundles.length, Math.floor(most / size), colours.indexOf(peak.values[0])).flatMap((place) => bundles[place]);
+  return spread(bundles.length, Math.floor(most / size),
+    colours.indexOf(peak.values[0])).flatMap((place) => bundles[place]);
 }
 
 /// The curves that are drawn. @param chosen  keys of those that the user wants; null for evenly spread ones
@@ -97,11 +107,13 @@ export function scaleOf(values) {
 export function looksOf(rows, { colour, style, isScale }) {
   const numbers = isScale ? valuesOf(rows, colour).filter((value) => typeof value === "number") : [];
   const scale = scaleOf(numbers);
-  const ranks = [colour, style].map((key) => new Map((key ? valuesOf(rows, key) : []).map((value, rank) => [value, rank])));
+  const ranks = [colour, style].map((key) => (key ? valuesOf(rows, key) : []))
+    .map((values) => new Map(values.map((value, rank) => [value, rank])));
   return ({ values }) => {
     const rank = (style ? ranks[1].get(values[1]) : isScale ? 0 : ranks[0].get(values[0])) ?? 0;
     const [value] = values;
-    return { colour: isScale && typeof value === "number" ? paletteColour(scale(value)) : lineColour(ranks[0].get(value) ?? 0),
+    return { colour: isScale && typeof value === "number" ? paletteColour(scale(value))
+      : lineColour(ranks[0].get(value) ?? 0),
       pattern: patterns[rank % patterns.length], symbol: symbols[rank % symbols.length] };
   };
 }

@@ -46,8 +46,8 @@ function compare(a, b) {
 /** @type {WeakMap<Api.Row[], Map<string, (string | number)[]>>} */
 const known = new WeakMap();  // by rows, then by axis: many parts ask for the same
 
-/// The different values of an axis: numbers from the least to the largest, anything else in the order that was asked for,
-/// which is that of the jobs. An object or list stands as its JSON; a missing value is the last one.
+/// The different values of an axis: numbers from the least to the largest, anything else in the order that
+/// was asked for, which is that of the jobs. An object or list stands as its JSON; a missing value is the last one.
 /** @param {Api.Row[]} rows  @param {string} axis */
 export function valuesOf(rows, axis) {
   const ofRows = known.get(rows) ?? new Map();

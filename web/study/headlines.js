@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sentences on a sweep: its largest and least value with their parameters, failures, and the scatter of replicates.
+// Sentences on a sweep: its largest and least value with their parameters, failures, and the scatter of
+// replicates.
 import { h } from "/core/dom.js";
 import { nameOf, number, plural, unitOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
@@ -14,7 +15,8 @@ const withUnit = (value, name) => [number(value), unitOf(name)].filter(Boolean).
 function settingOf(row, axes) {
   return axes.filter((axis) => valueOf(row, axis) !== none).map((axis) => {
     const value = valueOf(row, axis);
-    return [nameOf(axis).toLowerCase(), typeof value === "number" ? number(value, 6) : value, unitOf(axis)].filter(Boolean).join(" ");
+    return [nameOf(axis).toLowerCase(), typeof value === "number" ? number(value, 6) : value,
+      unitOf(axis)].filter(Boolean).join(" ");
   }).join(", ");
 }
 
@@ -32,8 +34,10 @@ function timeOf(row, metric) {
 function extremeSentence(word, row, all, { axes, view: { metric } }) {
   const setting = settingOf(row, axes);
   const equal = all.filter((each) => each[metric] === row[metric]).length;
-  return h("li", {}, `${word}: `, h("strong", defines("metrics", metric), withUnit(row[metric], metric)), timeOf(row, metric),
-    setting ? `, ${setting} (` : " (", linkTo(row), equal > 1 ? `, the first of ${equal.toLocaleString("en")} with this value)` : ")");
+  return h("li", {}, `${word}: `, h("strong", defines("metrics", metric), withUnit(row[metric], metric)),
+    timeOf(row, metric),
+    setting ? `, ${setting} (` : " (", linkTo(row), equal > 1
+      ? `, the first of ${equal.toLocaleString("en")} with this value)` : ")");
 }
 
 /** @param {SweepPage} sweep */
@@ -45,8 +49,10 @@ function failureSentence({ rows, failures }) {
     const reason = failures.of(id)?.error_reason;
     if (reason) counts.set(reason, (counts.get(reason) ?? 0) + 1);
   }
-  const reasons = [...counts].sort((a, b) => b[1] - a[1]).map(([reason, count]) => `${count.toLocaleString("en")} by ${reason}`).join(", ");
-  return h("li", { class: "failed" }, `${plural(failed.length, "job")} of ${rows.length.toLocaleString("en")} failed${reasons ? `: ${reasons}` : ""}.`);
+  const reasons = [...counts].sort((a, b) => b[1] - a[1]).map(([reason,
+    count]) => `${count.toLocaleString("en")} by ${reason}`).join(", ");
+  return h("li", { class: "failed" },
+    `${plural(failed.length, "job")} of ${rows.length.toLocaleString("en")} failed${reasons ? `: ${reasons}` : ""}.`);
 }
 
 /// Sets of replicates with two values at least.
@@ -68,7 +74,8 @@ export function replicateSets({ rows, axes, view: { metric } }) {
 function scatterSentence(sweep) {
   const { axes, view: { metric } } = sweep;
   const sets = replicateSets(sweep);
-  if (sets.length === 0) return h("li", { class: "quiet" }, "One run each: how much the values scatter is not known.");
+  if (sets.length === 0) return h("li", { class: "quiet" },
+    "One run each: how much the values scatter is not known.");
   const spreads = sets.map((set) => {
     const values = set.map((row) => row[metric]);
     const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
@@ -78,7 +85,8 @@ function scatterSentence(sweep) {
   const widest = spreads.reduce((best, each) => (each.part > best.part ? each : best));
   const middle = spreads.map(({ part }) => part).sort((a, b) => a - b)[Math.floor(spreads.length / 2)];
   const percent = (part) => `${number(100 * part, 2)} %`;
-  return h("li", {}, `Replicates of ${plural(sets.length, "setting")} differ by at most `, h("strong", {}, percent(widest.part)),
+  return h("li", {}, `Replicates of ${plural(sets.length, "setting")} differ by at most `,
+    h("strong", {}, percent(widest.part)),
     ` of their mean (${withUnit(widest.range, metric)}, ${plural(widest.count, "run")}, ${settingOf(widest.row, axes)}, `,
     linkTo(widest.row), `); by ${percent(middle)} in the middle of the settings.`);
 }

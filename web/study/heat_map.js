@@ -110,10 +110,12 @@ function gridsOf(view, xs, ys, panels, { columns, lines, width, height }) {
   return {
     title: panels.map((panel, index) => ({ text: view.panel ? pointOf(view.panel, panel) : "", left: place(index).left,
       top: Math.floor(index / columns) * step + 2, padding: 0,
-      textStyle: { fontSize: 13, width: ((part - 1) / 100) * width, overflow: "truncate", color: colour("text") } })),
+      textStyle: { fontSize: 13, width: ((part - 1) / 100) * width, overflow: "truncate",
+        color: colour("text") } })),
     grid: panels.map((_, index) => place(index)),
     xAxis: panels.map((_, index) =>
-      ({ gridIndex: index, type: "category", data: xs.map(shortly), name: isLowest(index) ? titleOf(view.x) : "", nameLocation: "middle",
+      ({ gridIndex: index, type: "category", data: xs.map(shortly), name: isLowest(index) ? titleOf(view.x)
+        : "", nameLocation: "middle",
         nameGap: 28, ...withRoom(xs, mostLabels / columns, isLowest(index)) })),
     yAxis: panels.map((_, index) =>
       ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0

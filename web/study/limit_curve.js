@@ -44,7 +44,8 @@ function optionOf(search) {
     xAxis: { ...axis, name: x ? titleOf(x) : "", nameLocation: "middle", nameGap: 28, ...axisLook() },
     yAxis: { type: "value", scale: true, name: titleOf(search.parameter), nameLocation: "middle", nameGap: 50,
       ...axisLook() },
-    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at, hasReplicates(search)),
+    series: [...lines].flatMap(([name, limits], index) => [bandSeries(name, limits, index, at,
+      hasReplicates(search)),
       lineSeries(name, limits, index, at)]),
   };
 }
@@ -56,9 +57,11 @@ function lineSeries(name, limits, index, at) {
       ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
 }
 
-/// Bar beside a limit: the band between "all replicates" and "none", or the stretch in which the limit of single runs lies.
+/// Bar beside a limit: the band between "all replicates" and "none", or the stretch in which the limit of
+/// single runs lies.
 function bandSeries(name, limits, index, at, isBand) {
-  const endsOf = (limit) => (isBand ? [limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond ?? limit.limit]
+  const endsOf = (limit) => (isBand ? [limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond
+    ?? limit.limit]
     : [limit.limit, limit.limit_beyond ?? limit.limit]);
   return { name, type: "custom", color: lineColour(index),
     data: limits.map((limit) => [at(limit), ...endsOf(limit)]), encode: { x: 0, y: [1, 2] },
@@ -73,10 +76,12 @@ function bandSeries(name, limits, index, at, isBand) {
 /** @param {Api.Search} search  @param {Api.Limit} limit */
 function textOf(search, limit) {
   const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
-  const beyond = limit.limit_beyond === null ? `not exceeded at any of ${plural(limit.points.length, "value")} up to there`
+  const beyond = limit.limit_beyond === null
+    ? `not exceeded at any of ${plural(limit.points.length, "value")} up to there`
     : `exceeded at ${number(limit.limit_beyond)}`;
   const band = hasReplicates(search)
-    ? `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}` : "one run at each value";
+    ? `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}`
+      : "one run at each value";
   return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band,
     limit.monotonic ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
 }

@@ -61,7 +61,8 @@ function textOf(search, point) {
   const share = low === null || high === null ? ""
     : `: ${number(100 * low, 3)} to ${number(100 * high, 3)} % of all, with 90 % confidence`;
   const where = `${nameOf(search.parameter)} ${number(point.value)} ${unitOf(search.parameter)}`;
-  if (point.count < 2) return [where, `${number(point.quantile)} ${unit}, one run`, point.within === point.count ? "within the bound"
+  if (point.count < 2) return [where, `${number(point.quantile)} ${unit}, one run`,
+    point.within === point.count ? "within the bound"
     : "beyond the bound"].join("\n");
   return [where,
     `quantile ${number(point.quantile)} ${unit}`, `${number(point.min)} to ${number(point.max)} ${unit}`,

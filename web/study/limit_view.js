@@ -13,7 +13,8 @@ const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded a
 /// Verdict on a limit; "not exceeded" with the number of values at which that was looked at.
 /** @type {(limit: Api.Limit) => string} */
 const verdictOf = ({ verdict, lost_reason: reason, points }) =>
-  verdicts[verdict] + (verdict === "never_exceeded" ? ` ${points.length === 1 ? "the value" : `any of the ${points.length} values`} looked at` : "")
+  verdicts[verdict] + (verdict === "never_exceeded"
+    ? ` ${points.length === 1 ? "the value" : `any of the ${points.length} values`} looked at` : "")
   + (reason === "no_value" ? " (the metric does not apply)" : reason ? ` (${reason})` : "");
 
 /// The combination of a limit: "10 rad/s, flexible".
@@ -35,7 +36,8 @@ export class LimitView extends StudyView {
 
   intro() {
     const { study: search } = this;
-    const by = hasReplicates(search) ? `for which at least ${number(100 * search.quantile)} % of the replicates keep` : "whose run keeps";
+    const by = hasReplicates(search)
+      ? `for which at least ${number(100 * search.quantile)} % of the replicates keep` : "whose run keeps";
     const single = "One run at each value: how much the metric scatters is not known, nor how sharp the limit is.";
     return [h("p", {}, `The largest ${titleOf(search.parameter)} ${by} ${titleOf(search.metric)} at or below ${exact(search.bound)}.`),
       ...(hasReplicates(search) ? [] : [h("p", { role: "note" }, single)])];
@@ -45,7 +47,8 @@ export class LimitView extends StudyView {
     const { study: search } = this;
     const unit = `[${unitOf(search.parameter) || "1"}]`;
     return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`],
-      ...(hasReplicates(search) ? [[`OK in all up to ${unit}`, "number"], [`Exceeded in all from ${unit}`, "number"]] : []),
+      ...(hasReplicates(search) ? [[`OK in all up to ${unit}`, "number"],
+        [`Exceeded in all from ${unit}`, "number"]] : []),
       ["Evaluations", "number"], [`Metric falls in ${unit}`]];
   }
 
@@ -76,7 +79,8 @@ export class LimitView extends StudyView {
       : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
     return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))),
       h("td", {}, verdictOf(limit)), h("td", {}, between),
-      ...(hasReplicates(this.study) ? [limit.band_from, limit.band_to].map((end) => h("td", { class: "number" }, number(end))) : []),
+      ...(hasReplicates(this.study) ? [limit.band_from, limit.band_to].map((end) => h("td",
+        { class: "number" }, number(end))) : []),
       h("td", { class: "number" }, String(limit.evaluations)),
       h("td", {}, falls || "–"));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A metric over one axis, a curve for each value of a second one (and of the panels' axis), with the spread of what
-// lies together. Numbers are told apart by a colour scale, words by line style.
+// A metric over one axis, a curve for each value of a second one (and of the panels' axis), with the spread
+// of what lies together. Numbers are told apart by a colour scale, words by line style.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour } from "/core/theme.js";
@@ -85,17 +85,28 @@ function planOf(sweep, width) {
 }
 
 /// Curves with their looks and two names: that of the curve, and that of its entry in the legend.
-/** @param {import("/study/curves.js").Curve[]} curves  @param {SweepPage} sweep  @param {ReturnType<typeof rolesOf>} roles */
+/**
+ * @param {import("/study/curves.js").Curve[]} curves
+ * @param {SweepPage} sweep
+ * @param {ReturnType<typeof rolesOf>} roles
+ */
 function dressed(curves, { rows, view, others }, roles) {
   const lookOf = looksOf([...rows, ...(others?.rows ?? [])], roles);
   const inLegend = (curve) => (roles.isScale
-    ? nameOfCurve({ ...curve, values: curve.values.slice(1) }, { ...roles, colour: roles.style, style: "" }) : nameOfCurve(curve, roles));
-  return curves.map((curve) => ({ ...curve, ...lookOf(curve), name: nameOfCurve(curve, roles) || nameOf(view.metric),
+    ? nameOfCurve({ ...curve, values: curve.values.slice(1) }, { ...roles, colour: roles.style, style: "" })
+      : nameOfCurve(curve, roles));
+  return curves.map((curve) => ({ ...curve, ...lookOf(curve), name: nameOfCurve(curve, roles)
+    || nameOf(view.metric),
     label: inLegend(curve) || nameOf(view.metric) }));
 }
 
 /// What tells the curves apart: a colour bar for numbers, a legend for the rest.
-/** @param {SweepPage} sweep  @param {ReturnType<typeof rolesOf>} roles  @param {DrawnCurve[]} lines  @param {number} width */
+/**
+ * @param {SweepPage} sweep
+ * @param {ReturnType<typeof rolesOf>} roles
+ * @param {DrawnCurve[]} lines
+ * @param {number} width
+ */
 function keyAbove({ rows, others }, roles, lines, width) {
   const names = [...new Set(lines.map(({ label }) => label))];
   const barHeight = roles.isScale ? colourBarHeight : 0;
@@ -103,8 +114,10 @@ function keyAbove({ rows, others }, roles, lines, width) {
   const hasLegend = !roles.isScale || names.length > 1;
   const numbers = (values) => values.filter((value) => typeof value === "number");
   return { height: barHeight + (hasLegend ? legend.height : 0),
-    legend: { ...legend.option, show: hasLegend, top: barHeight, ...(roles.isScale ? { itemWidth: 40 } : {}), data: names.map((name) => entryOf(name, roles, lines)) },
-    graphic: roles.isScale ? colourBar(roles.colour, numbers(valuesOf([...rows, ...(others?.rows ?? [])], roles.colour)),
+    legend: { ...legend.option, show: hasLegend, top: barHeight, ...(roles.isScale ? { itemWidth: 40 } : {}),
+      data: names.map((name) => entryOf(name, roles, lines)) },
+    graphic: roles.isScale ? colourBar(roles.colour, numbers(valuesOf([...rows, ...(others?.rows ?? [])],
+      roles.colour)),
       numbers(lines.map(({ values }) => values[0])), width, left) : [] };
 }
 
@@ -112,7 +125,8 @@ function keyAbove({ rows, others }, roles, lines, width) {
 function entryOf(name, { isScale }, lines) {
   if (!isScale) return { name };
   const { pattern } = lines.find(({ label }) => label === name);
-  return { name, itemStyle: { color: colour("text") }, lineStyle: { color: colour("text"), type: pattern, width: 2 } };
+  return { name, itemStyle: { color: colour("text") }, lineStyle: { color: colour("text"), type: pattern,
+    width: 2 } };
 }
 
 /// The chart in words.
@@ -163,7 +177,8 @@ function chosenSeries(line, index, at, selection) {
   const chosen = selection.size === 0 ? []
     : line.groups.filter((group) => hasValue(group) && group.jobs.some((job) => selection.has(job)));
   if (chosen.length === 0) return [];
-  return [{ id: `chosen:${index}`, name: line.label, type: "scatter", silent: true, symbol: "circle", symbolSize: 15,
+  return [{ id: `chosen:${index}`, name: line.label, type: "scatter", silent: true, symbol: "circle",
+    symbolSize: 15,
     z: 5,
     itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 },
     data: chosen.map((group) => [at(group.values.at(-1)), group.mean]) }];

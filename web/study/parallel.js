@@ -71,10 +71,12 @@ export function parallelNote(sweep) {
 /// An axis, with its name above or below it in turn. @param room  pixels from one axis to the next but one
 function dimensionOf({ name, values, isNumeric }, dim, room) {
   return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start",
-    nameTextStyle: { color: colour("text"), fontSize: 11, width: Math.max(36, Math.min(150, room - 8)), overflow: "break" },
+    nameTextStyle: { color: colour("text"), fontSize: 11, width: Math.max(36, Math.min(150, room - 8)),
+      overflow: "break" },
     axisLine: { lineStyle: { color: colour("quiet") } },
     // On ground of their own, for lines run below them.
-    axisLabel: { color: colour("text"), backgroundColor: colour("card"), padding: [1, 3], borderRadius: 2, formatter: (value) => (isNumeric ? number(value) : exact(value)),
+    axisLabel: { color: colour("text"), backgroundColor: colour("card"), padding: [1, 3], borderRadius: 2,
+      formatter: (value) => (isNumeric ? number(value) : exact(value)),
       ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
@@ -89,7 +91,8 @@ function planOf(sweep, width) {
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
   return { shown, option: {
     parallel: { left, right, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
-    parallelAxis: columns.map((column, dim) => dimensionOf(column, dim, (2 * (width - left - right)) / Math.max(1, columns.length - 1))),
+    parallelAxis: columns.map((column, dim) => dimensionOf(column, dim,
+      (2 * (width - left - right)) / Math.max(1, columns.length - 1))),
     visualMap: { show: false, ...ends(extremesOf(peaks)),
       dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000,

@@ -13,7 +13,8 @@ const numberOf = (text) => Number(text.replace(",", ".").replaceAll("−", "-"))
 
 /** @type {Record<string, (value: number, bound: number) => boolean>} */
 const holds = { "<": (value, bound) => value < bound, ">": (value, bound) => value > bound,
-  "<=": (value, bound) => value <= bound, ">=": (value, bound) => value >= bound, "≤": (value, bound) => value <= bound,
+  "<=": (value, bound) => value <= bound, ">=": (value, bound) => value >= bound,
+    "≤": (value, bound) => value <= bound,
   "≥": (value, bound) => value >= bound,
   // What the table shows has four digits.
   "=": (value, bound) => value === bound || Math.abs(value - bound) < 5e-5 * Math.abs(bound) };
@@ -26,7 +27,8 @@ export function filterOf(column, text, isNumeric) {
   if (wanted === "") return null;
   if (!isNumeric) return (row) => String(valueOf(row, column)).toLowerCase().includes(wanted.toLowerCase());
   const [, from, to] = range.exec(wanted) ?? [];
-  if (from !== undefined) return (row) => typeof row[column] === "number" && row[column] >= numberOf(from) && row[column] <= numberOf(to);
+  if (from !== undefined) return (row) => typeof row[column] === "number" && row[column] >= numberOf(from)
+    && row[column] <= numberOf(to);
   const [, sign = "=", bound] = comparison.exec(wanted) ?? [];
   if (bound === undefined) throw new Error(`“${wanted}” is no filter of numbers: write 5, > 5, ≤ 5 or 5 .. 10`);
   return (row) => typeof row[column] === "number" && holds[sign](row[column], numberOf(bound));

@@ -16,7 +16,12 @@ export class RowWindow {
   /// @param scroll     element that scrolls
   /// @param rowHeight  of each row, in pixels
   /// @param make       makes the element of a row
-  /** @param {HTMLElement} scroll  @param {HTMLTableSectionElement} body  @param {number} rowHeight  @param {(row: any, place: number) => HTMLTableRowElement} make */
+  /**
+   * @param {HTMLElement} scroll
+   * @param {HTMLTableSectionElement} body
+   * @param {number} rowHeight
+   * @param {(row: any, place: number) => HTMLTableRowElement} make
+   */
   constructor(scroll, body, rowHeight, make) {
     this.scroll = scroll;
     this.body = body;

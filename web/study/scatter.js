@@ -31,7 +31,8 @@ function namesOf({ view, axes, metrics }) {
   const x = view.scatterX || other;
   const varied = axes.filter((axis) => axis !== x);
   const usual = varied.includes(view.x) ? view.x : varied[0] ?? "";
-  return { x, y: view.scatterY || view.metric, c: view.scatterColour === "none" ? "" : view.scatterColour || usual };
+  return { x, y: view.scatterY || view.metric, c: view.scatterColour === "none" ? "" : view.scatterColour
+    || usual };
 }
 
 /** @param {SweepPage} sweep  @param {number} width */
@@ -44,36 +45,44 @@ function optionOf(sweep, width) {
   const isScale = c !== "" && hasScale(rows, c);
   const point = (row) => [xAxis.at(row), yAxis.at(row), isScale ? row[c] ?? "-" : 0, row.job_id];
   const groups = c === "" || isScale ? [{ name: nameOf(y), rows: shown }]
-    : valuesOf(rows, c).map((value) => ({ name: pointOf(c, value), rows: shown.filter((row) => valueOf(row, c) === value) }));
+    : valuesOf(rows, c).map((value) => ({ name: pointOf(c, value),
+      rows: shown.filter((row) => valueOf(row, c) === value) }));
   const chosen = shown.filter((row) => selection.has(row.job_id));
   const numbers = isScale ? valuesOf(rows, c).filter((value) => typeof value === "number") : [];
   const legend = legendOf(groups.map(({ name }) => name), width);
   const hasLegend = groups.length > 1;
   const byId = new Map(shown.map((row) => [row.job_id, row]));
   return {
-    grid: { left, right: 25, top: 16 + (isScale ? colourBarHeight : hasLegend ? legend.height : 0), bottom: 50 },
-    legend: { ...legend.option, show: hasLegend }, graphic: isScale ? colourBar(c, numbers, ticksOf(numbers), width, left) : [],
+    grid: { left, right: 25, top: 16 + (isScale ? colourBarHeight : hasLegend ? legend.height : 0),
+      bottom: 50 },
+    legend: { ...legend.option, show: hasLegend }, graphic: isScale
+      ? colourBar(c, numbers, ticksOf(numbers), width, left) : [],
     tooltip: { formatter: ({ data }) => textOf(byId.get(data[3]), [...new Set([...axes, x, y])]) },
     // Values decades apart would all lie at the end of the palette: the chart has their logarithms.
-    ...(isScale ? { visualMap: { show: false, ...mapOf(numbers), dimension: 2, seriesIndex: 0, inRange: { color: linePalette() } } } : {}),
+    ...(isScale ? { visualMap: { show: false, ...mapOf(numbers), dimension: 2, seriesIndex: 0,
+      inRange: { color: linePalette() } } } : {}),
     xAxis: { ...xAxis.option, name: titleOf(x), nameLocation: "middle", nameGap: 28 },
     yAxis: { ...yAxis.option, name: titleOf(y), nameLocation: "middle", nameGap: 55 },
     series: [...groups.map((group, index) => ({ type: "scatter", name: group.name, color: lineColour(index),
-      symbolSize: shown.length > many ? 4 : 7, itemStyle: { opacity: 0.8 }, data: group.rows.map(isScale && spansDecades(numbers)
+      symbolSize: shown.length > many ? 4 : 7, itemStyle: { opacity: 0.8 },
+        data: group.rows.map(isScale && spansDecades(numbers)
         ? (row) => point(row).with(2, Math.log10(row[c])) : point) })),
     { type: "scatter", name: "selected", silent: true, symbolSize: 15, z: 5, data: chosen.map(point),
-      itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 } }].filter(({ data }) => data.length > 0),
+      itemStyle: { color: "transparent", borderColor: "#e6007a",
+        borderWidth: 3 } }].filter(({ data }) => data.length > 0),
   };
 }
 
 /// Numbers with a tick on the colour bar.
-const ticksOf = (numbers) => (numbers.length <= fewTicks ? numbers : [numbers[0], numbers[Math.floor(numbers.length / 2)], numbers[numbers.length - 1]]);
+const ticksOf = (numbers) => (numbers.length <= fewTicks ? numbers
+  : [numbers[0], numbers[Math.floor(numbers.length / 2)], numbers[numbers.length - 1]]);
 
 function mapOf(numbers) {
   return extremesOf(spansDecades(numbers) ? numbers.map(Math.log10) : numbers);
 }
 
-/// Axis of numbers, logarithmic for a parameter with values decades apart, or of words in the order asked for.
+/// Axis of numbers, logarithmic for a parameter with values decades apart, or of words in the order asked
+/// for.
 /** @param {Api.Row[]} rows  @param {string} name  @param {string[]} axes */
 function axisOf(rows, name, axes) {
   const values = valuesOf(rows, name).filter((value) => value !== none);

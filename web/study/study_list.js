@@ -56,8 +56,10 @@ class StudyList {
     this.signal = signal;
     this.empty = emptyCard(kind);
     /** @type {ListOrder<Item>} */
-    this.order = new ListOrder({ name: ["Name", (study) => study.name || study.id], state: ["State", (study) => study.state],
-      created: ["Created", (study) => study.created_at] }, new URLSearchParams(location.hash.split("?")[1]).get("sort"),
+    this.order = new ListOrder({ name: ["Name", (study) => study.name || study.id],
+      state: ["State", (study) => study.state],
+      created: ["Created", (study) => study.created_at] },
+        new URLSearchParams(location.hash.split("?")[1]).get("sort"),
       (sort) => { rememberQuery({ sort }); this.draw(); });
     /** @type {Marked<Item>} */
     this.marked = new Marked({ nouns: kind.nouns, mayGo: ({ state }) => state !== "running",
@@ -70,11 +72,13 @@ class StudyList {
       ...(answerOf ? [["answer", "Answer"]] : []), ["created", "Created"]];
     const cells = headings.map(([key, text]) =>
       h("th", { scope: "col" }, key === "box" ? this.marked.all : this.order.heading(key, text)));
-    this.table = h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region", "aria-label": listName },
+    this.table = h("div", { class: "scroll card", hidden: true, tabindex: 0, role: "region",
+      "aria-label": listName },
       h("table", { class: "list" }, h("thead", {}, h("tr", {}, cells)), this.body));
     this.order.draw();
     return [h("h1", {}, title), h("p", {}, question),
-      h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(route, "new") }, begin), this.order.element),
+      h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(route, "new") }, begin),
+        this.order.element),
       this.status, this.marked.bar, this.table, this.empty];
   }
 

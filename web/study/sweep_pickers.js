@@ -9,8 +9,10 @@ import { quantityChoice } from "/core/quantities.js";
 export function drawPickers(page) {
   const { view, axes, metrics } = page;
   // A scale was chosen for the axis or the metric that it stood at, and curves for their axes.
-  const forgotten = { x: { xScale: "", curves: null }, y: { curves: null }, panel: { curves: null }, metric: { metricScale: "" } };
-  const set = (key) => (value) => { Object.assign(view, { [key]: value, ...forgotten[key] }); page.changed(); };
+  const forgotten = { x: { xScale: "", curves: null }, y: { curves: null }, panel: { curves: null },
+    metric: { metricScale: "" } };
+  const set = (key) => (value) => { Object.assign(view, { [key]: value,
+    ...forgotten[key] }); page.changed(); };
   const named = axes.map((name) => [name, titleOf(name)]);
   page.pickers.replaceChildren(quantityChoice("Metric", "metrics", metrics, view.metric, set("metric")),
     ...(axes.length === 0 ? [] : [choice("x axis", named, view.x, set("x"))]),
@@ -22,9 +24,11 @@ export function drawPickers(page) {
 /** @param {SweepPage} page */
 async function offerComparison(page) {
   const found = await listSweeps({ limit: 100 }, page.signal).catch(() => null);
-  const alike = (found?.items ?? []).filter(({ id, axes }) => id !== page.sweep.id && axes.includes(page.view.x));
+  const alike = (found?.items ?? []).filter(({ id, axes }) => id !== page.sweep.id
+    && axes.includes(page.view.x));
   if (alike.length === 0) return;
   page.compare.replaceChildren(
-    choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], page.others?.id ?? "",
+    choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], page.others?.id
+      ?? "",
       (id) => page.compareWith(id).then(() => page.changed())));
 }

@@ -8,7 +8,8 @@ import { routeTo } from "/core/route.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
 // of its cells
-const classes = { box: "box", name: "name", state: "", jobs: "small", peaks: "peaks", created: "small created", actions: "acts" };
+const classes = { box: "box", name: "name", state: "", jobs: "small", peaks: "peaks",
+  created: "small created", actions: "acts" };
 const shownOfId = 7;  // of its letters the last ones: the first tell the time and are much alike
 const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
 
@@ -27,7 +28,11 @@ export function studyBadge({ study_id: id }) {
 }
 
 /// @param act  is called with "cancel", "retry" or "delete"  @param box  that marks the sweep
-/** @param {(action: "cancel" | "retry" | "delete") => void} act  @param {HTMLElement} box  @param {AbortSignal} signal */
+/**
+ * @param {(action: "cancel" | "retry" | "delete") => void} act
+ * @param {HTMLElement} box
+ * @param {AbortSignal} signal
+ */
 export function sweepRow(act, box, signal) {
   const cells = Object.fromEntries(Object.entries(classes).map(([key, name]) => [key, h("td", { class: name })]));
   const element = h("tr", {}, ...Object.values(cells));
@@ -54,9 +59,11 @@ export function sweepRow(act, box, signal) {
     if (text === drawn) return;
     drawn = text;
     const name = sweep.name || sweep.id;
-    cells.name.replaceChildren(h("div", { class: "line" }, h("a", { href: routeTo("sweeps", sweep.id), title: sweep.id },
+    cells.name.replaceChildren(h("div", { class: "line" }, h("a",
+      { href: routeTo("sweeps", sweep.id), title: sweep.id },
       sweep.name || shortOf(sweep.id)), " ", studyBadge(sweep)),
-    h("span", { class: "small quiet", title: sweep.axes.map(nameOf).join(" × ") }, sweep.axes.map(nameOf).join(" × ")));
+    h("span", { class: "small quiet", title: sweep.axes.map(nameOf).join(" × ") },
+      sweep.axes.map(nameOf).join(" × ")));
     state.className = sweep.state;
     state.textContent = sweep.executor === "local" ? sweep.state : `${sweep.state} on ${sweep.executor}`;
     const part = `${Math.floor(100 * sweep.progress)} %`;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a sweep as a table: sorted by any column, filtered, with the columns that one wants. Only the rows that
-// are seen are drawn.
+// The rows of a sweep as a table: sorted by any column, filtered, with the columns that one wants. Only the
+// rows that are seen are drawn.
 import { h } from "/core/dom.js";
 import { number, plural, titleOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
@@ -40,14 +40,18 @@ export class ResultTable {
     this.fault = h("p", { class: "trouble small", role: "alert" });
     const only = h("input",
       { type: "checkbox", onchange: () => { this.onlySelected = only.checked; this.draw(); } });
-    this.filterButton = h("button", { "aria-expanded": "false", onclick: () => this.toggleFilters() }, "Filter");
-    this.choice = columnChoice({ all: () => this.allColumns(), titleOf: this.titleOf, changed: () => this.draw() });
+    this.filterButton = h("button", { "aria-expanded": "false", onclick: () => this.toggleFilters() },
+      "Filter");
+    this.choice = columnChoice({ all: () => this.allColumns(), titleOf: this.titleOf,
+      changed: () => this.draw() });
     this.missing = h("p", { class: "quiet small", role: "note" });
     this.table = h("table", { class: "rows" }, this.columns, h("thead", {}, this.head), this.body);
-    this.scroll = h("div", { class: "scroll rows", tabindex: 0, role: "region", "aria-label": "Results" }, this.table);
+    this.scroll = h("div", { class: "scroll rows", tabindex: 0, role: "region", "aria-label": "Results" },
+      this.table);
     this.window = new RowWindow(this.scroll, this.body, rowHeight, (row, place) => this.row(row, place));
     this.element = h("div", {}, this.missing,
-      h("p", { class: "actions" }, this.choice.element, this.filterButton, h("label", {}, only, " Selected only"), this.where),
+      h("p", { class: "actions" }, this.choice.element, this.filterButton,
+        h("label", {}, only, " Selected only"), this.where),
       this.fault, this.scroll);
   }
 
@@ -100,15 +104,18 @@ export class ResultTable {
     this.columns.replaceChildren(...[68, 92, ...widths].map((width) => h("col", { width })));
     this.table.style.width = `${160 + widths.reduce((sum, width) => sum + width, 0)}px`;
     this.filterRow.remove();
-    this.filterRow.replaceChildren(h("td", { colspan: 2 }), ...(this.shown ?? []).map((column) => this.filterCell(column)));
+    this.filterRow.replaceChildren(h("td", { colspan: 2 }), ...(this.shown
+      ?? []).map((column) => this.filterCell(column)));
     if (this.isFiltered) this.head.after(this.filterRow);
   }
 
-  /// Width of a column in pixels: as its longest word or value needs, so that no column moves while others are drawn.
+  /// Width of a column in pixels: as its longest word or value needs, so that no column moves while others
+  /// are drawn.
   /** @param {string} column */
   widthOf(column) {
     const values = valuesOf(this.sweep.rows, column);
-    const longest = this.isNumeric(column) ? 0 : Math.max(...values.slice(0, 1000).map((value) => String(value).length));
+    const some = this.isNumeric(column) ? [] : values.slice(0, 1000);
+    const longest = Math.max(0, ...some.map((value) => String(value).length));
     const word = Math.max(...this.titleOf(column).split(" ").map(({ length }) => length));
     const reason = column === "state" && values.includes("failed") ? largestWidth : 0;
     return Math.min(largestWidth, Math.max(leastWidth, reason, widthOfLetter * Math.max(longest, word) + 20));
@@ -123,7 +130,8 @@ export class ResultTable {
   visible() {
     const { rows, selection } = this.sweep;
     const tests = this.tests();
-    const wanted = rows.filter((row) => (!this.onlySelected || selection.has(row.job_id)) && tests.every((passes) => passes(row)));
+    const wanted = rows.filter((row) => (!this.onlySelected || selection.has(row.job_id))
+      && tests.every((passes) => passes(row)));
     return this.order.column ? sortedBy(wanted, this.order.column, this.order.descending) : wanted;
   }
 
@@ -166,7 +174,8 @@ export class ResultTable {
   /** @param {string} column */
   filterCell(column) {
     const input = h("input", { type: "text", value: this.filters.get(column) ?? "",
-      "aria-label": `Filter ${this.titleOf(column)}`, placeholder: this.isNumeric(column) ? "> 5" : "part of it",
+      "aria-label": `Filter ${this.titleOf(column)}`, placeholder: this.isNumeric(column) ? "> 5"
+        : "part of it",
       oninput: () => { this.filters.set(column, input.value); this.scroll.scrollTop = 0; this.draw(); } });
     return h("td", {}, input);
   }
@@ -194,7 +203,8 @@ export class ResultTable {
   stateCell({ job_id: id, state }) {
     const error = state === "failed" && this.sweep.failures.of(id);
     if (!error) return h("td", { class: state }, state);
-    return h("td", { class: `cut ${state}`, title: `${error.error_reason}: ${error.error_detail}` }, `${state}: ${error.error_reason} `,
+    return h("td", { class: `cut ${state}`, title: `${error.error_reason}: ${error.error_detail}` },
+      `${state}: ${error.error_reason} `,
       h("span", { class: "reason" }, error.error_detail));
   }
 }

@@ -48,7 +48,8 @@ function mapOption(cycles, ring) {
     angleAxis: { type: "value", min: 0, max: 360, interval: 30, startAngle: 0, clockwise: false,
       axisLabel: { ...text, formatter: (angle) => (angle === 360 ? "" : `${angle}°`) },
       axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { min: 0, splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24, nameTextStyle: text,
+    radiusAxis: { min: 0, splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24,
+      nameTextStyle: text,
       axisLabel: { ...text, hideOverlap: true, formatter: (value) => number(value, 2) },
       splitLine: { lineStyle: { color: colour("line") } } },
     series: chosen(cycles)
