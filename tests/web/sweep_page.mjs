@@ -63,7 +63,7 @@ test("the curves are chosen, twelve at most, and stand in the address", async ()
   assert.deepEqual(await curves(again), await curves(page));
   await leave(again);
   await page.getByLabel("Search curves").fill("0.55");
-  assert.equal(await page.locator(".menu .list input").count(), 2);
+  assert.equal(await page.locator(".menu[open] .list input").count(), 2);
   await page.getByRole("button", { name: "Evenly spread" }).click();
   await page.waitForURL((address) => !address.href.includes("curves="));
   // What was chosen for an axis is forgotten with it.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's seven statements about the largest slider acceleration, held against a sweep.
 import { analysisUrl, findAnalysis } from "/core/api.js";
-import { h } from "/core/dom.js";
+import { h, setSeen } from "/core/dom.js";
 import { nameOf, number, plural } from "/core/format.js";
+import { routeTo } from "/core/route.js";
 import { table } from "/analysis/parts.js";
 
 /** @typedef {Api.Get<"/v1/sweeps/{id}/paper">[number]} Statement */
@@ -38,11 +39,11 @@ export async function paperCard(element, { sweep }, signal) {
 
 /// Note on statements that are held against single runs; empty if the sweep has replicates.
 /** @param {Api.Sweep} sweep */
-export const singleRuns = ({ request }) => (Number(request.replicates?.count ?? 1) > 1 ? "" : "one run each");
+const singleRuns = ({ request }) => (Number(request.replicates?.count ?? 1) > 1 ? "" : "one run each");
 
 /// Summary of the numbered statements in words: "7 of 7 hold".
 /** @param {Statement[]} rows */
-export function summaryOf(rows) {
+function summaryOf(rows) {
   const [numbered] = split(rows);
   const told = numbered.filter(({ settings }) => settings > 0);
   if (told.some(({ settings }) => settings > 1)) {
@@ -53,6 +54,19 @@ export function summaryOf(rows) {
   const missing = numbered.length - told.length;
   const holding = told.filter(({ holds }) => holds).length;
   return `${holding} of ${numbered.length} hold${missing > 0 ? `; the sweep has no jobs of ${missing}` : ""}`;
+}
+
+/// Fills a line of the page of a sweep that has ended with the summary.
+/** @param {HTMLElement} line  @param {Api.Sweep} sweep  @param {AbortSignal} signal */
+export async function drawSummary(line, sweep, signal) {
+  try {
+    const summary = [summaryOf(await findAnalysis(sweep.id, "paper", {}, signal)), singleRuns(sweep)];
+    line.replaceChildren(h("a", { href: routeTo("analyses", sweep.id) }, "The paper's statements"),
+      `: ${summary.filter(Boolean).join("; ")}`);
+    setSeen(line, true);
+  } catch {
+    setSeen(line, false);  // the page of the analyses says why
+  }
 }
 
 /** @type {(rows: Statement[]) => [Statement[], Statement[]]} */

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findAnalysis, findResults, findSweep, parameterSchema, resultsUrl,
+import { cancelSweep, findResults, findSweep, parameterSchema, resultsUrl,
   retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
-import { bearsOnPaper, singleRuns, summaryOf } from "/analysis/paper.js";
+import { bearsOnPaper, drawSummary } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
 import { curveChoice } from "/study/curve_choice.js";
 import { metricsOf } from "/study/data.js";
@@ -125,7 +125,7 @@ export class SweepPage {
   start() {
     this.drawTexts();
     this.reloading = this.learnFailures();
-    this.drawChosen();
+    drawChosen(this.chosen, this.selection);
     this.selection.addEventListener("change", () => this.changed());
     this.makeCharts();
     this.drawPaper();
@@ -152,8 +152,10 @@ export class SweepPage {
 
   /// One in each frame, so that the first is seen before the last is made.
   async makeCharts() {
-    for (const { make, element } of [{ make: heatMap, element: this.heat }, { make: linesChart, element: this.lines },
-      { make: parallelChart, element: this.parallel }, { make: scatterChart, element: this.scatter }]) {
+    /** @type {[typeof heatMap, HTMLElement][]} */
+    const places = [[heatMap, this.heat], [linesChart, this.lines], [parallelChart, this.parallel],
+      [scatterChart, this.scatter]];
+    for (const [make, element] of places) {
       await new Promise(requestAnimationFrame);
       if (this.signal.aborted) return;
       try {
@@ -225,18 +227,8 @@ export class SweepPage {
     return this.metrics.includes("peak_slider_acceleration_m_s2") && bearsOnPaper(this.axes);
   }
 
-  /// Shows how many of the paper's statements hold, once the sweep has ended.
-  async drawPaper() {
-    if (!this.paper || isUnderWay(this.sweep)) return;
-    try {
-      const rows = await findAnalysis(this.sweep.id, "paper", {}, this.signal);
-      this.paper.replaceChildren(h("a", { href: routeTo("analyses", this.sweep.id) },
-        "The paper's statements"),
-          `: ${[summaryOf(rows), singleRuns(this.sweep)].filter(Boolean).join("; ")}`);
-      setSeen(this.paper, true);
-    } catch {
-      setSeen(this.paper, false);  // the page of the analyses says why
-    }
+  drawPaper() {
+    if (this.paper && !isUnderWay(this.sweep)) drawSummary(this.paper, this.sweep, this.signal);
   }
 
   drawAll() {
@@ -256,7 +248,7 @@ export class SweepPage {
 
   changed() {
     rememberQuery({ ...queryOf(this.view, this.selection.ids), with: this.others?.id });
-    this.drawChosen();
+    drawChosen(this.chosen, this.selection);
     this.drawLinks();
     this.drawAll();
   }
@@ -300,9 +292,5 @@ export class SweepPage {
     const picker = this.compare.querySelector("select");
     if (picker) picker.value = id;
     this.drawAll();
-  }
-
-  drawChosen() {
-    drawChosen(this.chosen, this.selection);
   }
 }
