@@ -268,7 +268,7 @@ test("an answer to what was asked before covers no newer one", async () => {
   while (all.asked() === 0) await page.waitForTimeout(50);
   await page.unroute(/\/v1\/sweeps\?/);
   await page.route(/\/v1\/sweeps\?.*state=failed/, (route) => route.fulfill({ json: { items: [], next_cursor: "" } }));
-  await page.getByLabel("State", { exact: false }).selectOption("failed");
+  await page.getByRole("combobox", { name: /^State/ }).selectOption("failed");
   await page.getByText("No matching sweeps.").waitFor();
   await all.letGo();
   await page.waitForTimeout(1000);
