@@ -18,7 +18,8 @@ DEBIAN = {"Eigen": "libeigen3-dev", "Boost: Odeint": "libboost-dev", "SQLite": "
           "cpp-httplib": "libcpp-httplib-dev", "JSON for Modern C++": "nlohmann-json3-dev", "zlib": "zlib1g-dev",
           "Brotli": "libbrotli-dev", "CLI11": "libcli11-dev", "spdlog": "libspdlog-dev", "fmt": "libfmt-dev",
           "prometheus-cpp": "prometheus-cpp-dev", "pagmo": "libpagmo-dev", "oneTBB": "libtbb-dev",
-          "Ceres": "libceres-dev", "NLopt": "libnlopt-dev"}
+          "Ceres": "libceres-dev", "NLopt": "libnlopt-dev", "HDF5": "libhdf5-dev", "matio": "libmatio-dev",
+          "MiniZip": "libminizip-dev"}
 NPM = {"ECharts": "echarts", "uPlot": "uplot", "three.js": "three", "Swagger UI": "swagger-ui-dist"}
 
 
