@@ -11,7 +11,7 @@ def subjects: [
   ["Friction", "^(friction.*|bristle_.*|break_away_ratio|stribeck_velocity_m_s)$"],
   ["Flexible links and material", "^(coupler|crank|cross|rod|rigid_elements|.*_(elements|damping_ratio|diameter_mm|modulus_pa))$"],
   ["Mass and inertia", "^links\\."],
-  ["Run, integration and output", "^(duration_s|output_rate_hz|integrator|step_s|.*_tolerance)$"]];
+  ["Run, integration and output", "^(duration_s|output_rate_hz|keep|integrator|step_s|.*_tolerance)$"]];
 def subject_of($key): first(subjects[] | . as [$title, $pattern] | select($key | test($pattern)) | $title) // error("\($key) belongs to no subject");
 
 def range:

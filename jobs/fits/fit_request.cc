@@ -12,6 +12,7 @@
 
 #include "jobs/fits/fit_cases.h"
 #include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
@@ -407,6 +408,8 @@ class FitParser : private RequestParser {
                             ? measured_rate * std::ceil(std::min(kLeastRate / measured_rate, 1e3))
                             : kUnevenRate;
     if (!is_given("output_rate_hz")) parameters["output_rate_hz"] = rate;
+    if (keeps_metrics_alone(parameters))
+      fault("/parameters" + pointer_token(kKeepKey), std::string(kNeedsTrajectories));
 
     if (!is_given("duration_s"))
       parameters["duration_s"] = std::stod(number_text((std::ceil(find_end() * rate - 1e-6) + 2.0) / rate));

@@ -14,6 +14,7 @@ struct JobSpec {
   engine::RpsupParameters parameters;
   engine::RunOptions options;
   std::optional<engine::Linkage> linkage{};  ///< a described linkage; empty: RPSUP
+  bool keeps_trajectory = true;              ///< whether the trajectory is stored
 };
 
 }  // namespace jobs

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/rpsup_drives.h"
@@ -49,6 +50,7 @@ std::string parameter_help() {
   text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object",
                   "The linkage; an object describes another one");
   text += line_of(std::string(kWearKey), "none", "", "lists", kWearHelp);
+  text += line_of(std::string(kKeepKey), std::string(kKeepAll), "", "all or metrics", std::string(kKeepHelp));
   for (const RpsupDrive& drive : rpsup_drives())
     text += line_of(std::string(drive.key), "none", "", "an object", drive.help);
   const nlohmann::json defaults = complete_parameters(nlohmann::json::object(), "");

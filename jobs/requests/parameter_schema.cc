@@ -2,6 +2,7 @@
 #include "jobs/requests/parameter_schema.h"
 
 #include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/rpsup_drives.h"
@@ -73,7 +74,12 @@ json schema_of_links() {
 }  // namespace
 
 json parameter_schema() {
-  json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}, {kWearKey, wear_schema()}};
+  json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}, {kWearKey, wear_schema()},
+                  {kKeepKey,
+                   {{"type", "string"},
+                    {"enum", kKeepWords},
+                    {"default", kKeepAll},
+                    {"description", kKeepHelp}}}};
   for (const RpsupDrive& drive : rpsup_drives()) {
     properties[drive.key] = drive_schema(drive.motion);
     properties[drive.key]["description"] = drive.help;

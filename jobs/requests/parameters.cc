@@ -14,6 +14,7 @@
 #include "jobs/linkages/linkage_drive.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/job_spec.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
@@ -31,7 +32,7 @@ constexpr double kMostStoredValues = 1.28e8;   // samples times channels: 1 GB w
 constexpr double kLeastClearance_mm = 1e-6;    // 1 nm: below, a gap between atoms
 
 std::vector<std::string_view> known_keys() {
-  std::vector<std::string_view> keys{"links", kLinkageKey, kWearKey};
+  std::vector<std::string_view> keys{"links", kLinkageKey, kWearKey, kKeepKey};
   for (const RpsupDrive& drive : rpsup_drives()) keys.push_back(drive.key);
   for (const ParameterInfo& info : parameter_table()) keys.push_back(info.key);
   return keys;
@@ -231,6 +232,9 @@ std::vector<Fault> find_value_faults(const json& given) {
       std::ranges::move(find_link_faults(value), std::back_inserter(faults));
     } else if (key == kWearKey) {
       std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
+    } else if (key == kKeepKey) {
+      if (std::string detail = describe_keep_fault(value); !detail.empty())
+        faults.push_back({pointer_token(key), std::move(detail)});
     } else if (const RpsupDrive* drive = find_rpsup_drive(key)) {
       check_drive(value, drive->motion, pointer_token(key), faults);
     } else if (const ParameterInfo* info = find_parameter(key)) {
@@ -268,6 +272,7 @@ json fill_in_defaults(const json& given) {
   completed[kLinkageKey] = described ? canonical_description(given.at(kLinkageKey)) : json(kRpsupName);
   if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
   if (given.contains(kWearKey)) completed[kWearKey] = canonical_wear(given.at(kWearKey));
+  if (keeps_metrics_alone(given)) completed[kKeepKey] = kKeepMetrics;
   for (const RpsupDrive& drive : rpsup_drives()) {
     if (!given.contains(drive.key)) continue;
     std::vector<Fault> faults;  // of numbers inside that a sweep varies; find_combination_faults() tells them
@@ -317,6 +322,7 @@ json complete_parameters(const json& given, const std::string& pointer) {
 
 JobSpec to_job_spec(const json& completed_parameters) {
   JobSpec spec;
+  spec.keeps_trajectory = !keeps_metrics_alone(completed_parameters);
   const bool described = describes_linkage(completed_parameters);
   for (const ParameterInfo& info : parameter_table()) {
     if (described && info.scope == ParameterScope::kRpsup) continue;

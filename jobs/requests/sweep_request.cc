@@ -7,6 +7,7 @@
 #include <set>
 
 #include "jobs/base/executor_names.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/axis.h"
@@ -160,10 +161,14 @@ class SweepParser {
   }
 
   void read_parameters() {
-    if (!request_.contains("parameters")) return;
-    sweep_.parameters = request_.at("parameters");
+    if (request_.contains("parameters")) sweep_.parameters = request_.at("parameters");
     // What follows may rely on them
     if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();
+    if (!request_.contains(kKeepKey)) return;
+    const json keep = request_.at(kKeepKey);
+    if (std::string detail = describe_keep_fault(keep); !detail.empty())
+      return fault(pointer_token(kKeepKey), std::move(detail));
+    sweep_.parameters[kKeepKey] = keep;
   }
 
   /// Faults of the parameters at a pointer. Who gives one of them several values is told where those stand.

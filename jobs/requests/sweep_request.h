@@ -16,8 +16,8 @@
 namespace jobs {
 
 /// Keys of a request.
-inline constexpr std::array<std::string_view, 9> kSweepRequestKeys{
-    "name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"};
+inline constexpr std::array<std::string_view, 10> kSweepRequestKeys{
+    "name", "parameters", "sweep", "design", "cases", "replicates", "keep", "reuse", "priority", "executor"};
 
 inline constexpr std::size_t kLongestName = 200;  ///< bytes
 inline constexpr Range kPerturbationRange{.minimum = 0.0, .maximum = 0.1, .lower = Bound::kExclusive};
@@ -51,8 +51,9 @@ struct SweepRequest {
   std::string executor;                                  ///< empty: none was named
 };
 
-/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "reuse", "priority", "executor"};
-/// all are optional. The number of jobs is counted before anything of that size is made.
+/// Reads {"name", "parameters", "sweep", "design", "cases", "replicates", "keep", "reuse", "priority",
+/// "executor"}; all are optional. "keep" is that of the parameters. The number of jobs is counted before
+/// anything of that size is made.
 /// @throws InvalidRequest with every fault; with that of the size only, if there are more than max_jobs
 [[nodiscard]] SweepRequest parse_sweep_request(const nlohmann::ordered_json& request, std::size_t max_jobs);
 

@@ -100,6 +100,7 @@ RunRecord run_and_record(const JobSpec& spec, const Runner& runner, const engine
   const double cpu_start_s = thread_cpu_time_s();
   try {
     take_result(runner(spec, stopped_or_late), spec, record);
+    if (!spec.keeps_trajectory) record.trajectory = {};
     if (late && record.end == RunRecord::End::kStopped) fail_for_time(most_s, record);
   } catch (const NeedsTooMuchMemory& error) {
     take_exception("memory_limit", error.what(), record);

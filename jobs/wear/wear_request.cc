@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameters.h"
@@ -91,6 +92,8 @@ class WearParser {
       return fault("/parameters" + pointer_token(kWearKey),
                    "must be left out: a study begins with a round bore");
     }
+    if (keeps_metrics_alone(given))
+      return fault("/parameters" + pointer_token(kKeepKey), std::string(kNeedsTrajectories));
     try {
       study_.completed = complete_parameters(study_.common.parameters, "/parameters");
     } catch (const InvalidRequest& invalid) {

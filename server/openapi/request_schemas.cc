@@ -2,6 +2,7 @@
 #include "server/openapi/request_schemas.h"
 
 #include "engine/analysis/quantities.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/requests/axis.h"
 #include "jobs/requests/design_kinds.h"
 #include "jobs/requests/parameter_path.h"
@@ -167,6 +168,11 @@ Json make_sweep_request() {
                   {"replicates", make_replicates()},
                   {"priority", make_priority()},
                   {"executor", make_executor()},
+                  {"keep",
+                   {{"type", "string"},
+                    {"enum", jobs::kKeepWords},
+                    {"default", jobs::kKeepAll},
+                    {"description", "The parameter keep of all jobs. metrics: no trajectories are stored"}}},
                   {"reuse",
                    {{"type", "boolean"},
                     {"default", true},

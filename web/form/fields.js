@@ -2,7 +2,7 @@
 // The parameters of the service's JSON Schema as fields of a form.
 
 /// Parameters without a field, which are written as JSON.
-export const writtenAsJson = ["crank_drive", "rod_drive", "wear_depth_um"];
+export const writtenAsJson = ["crank_drive", "rod_drive", "wear_depth_um", "keep"];
 
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {

@@ -5,7 +5,7 @@ import { choice, freshId, h, notify } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { fieldRow } from "/form/field.js";
-import { pathOfPointer } from "/form/fields.js";
+import { pathOfPointer, writtenAsJson } from "/form/fields.js";
 import { emptyEntry } from "/form/request.js";
 
 // Parameters that are shown at first; the others are one click away.
@@ -124,7 +124,7 @@ export class RequestForm {
 
   described() {
     return h("details", { open: this.state.described !== "" }, h("summary", {}, "Other drives and worn bore"),
-      ...this.json("described", "JSON object of crank_drive, rod_drive and wear_depth_um"));
+      ...this.json("described", `JSON object of ${writtenAsJson.join(", ")}`));
   }
 
   otherLinkage() {
