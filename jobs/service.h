@@ -203,9 +203,10 @@ class Service {
   /// @returns false if the service was stopped before it was done; then there is no file
   bool copy_store_to(const std::filesystem::path& file) const;
   /// Writes the trajectories of a sweep into one file, see jobs::write_trajectories().
-  /// @returns false if there is no such sweep  @throws Stopped if the service was stopped before it was done
+  /// @param stop  asked before each job; empty: nobody is
+  /// @returns false if there is no such sweep  @throws Stopped if stop() or stop of the service came first
   bool write_trajectories(const std::string& sweep_id, const TrajectoryExport& wanted,
-                          const std::filesystem::path& file) const;
+                          const std::filesystem::path& file, const std::function<bool()>& stop = {}) const;
   [[nodiscard]] const std::filesystem::path& store_file() const { return options_.store; }
 
   /// Blocks until the sweep has ended, or for that long, or until stop(). True if it has ended; false at once

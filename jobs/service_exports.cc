@@ -15,11 +15,11 @@ bool Service::copy_store_to(const std::filesystem::path& file) const {
 }
 
 bool Service::write_trajectories(const std::string& sweep_id, const TrajectoryExport& wanted,
-                                 const std::filesystem::path& file) const {
+                                 const std::filesystem::path& file, const std::function<bool()>& stop) const {
   const auto results = store_->reader.find_results(sweep_id);
   if (!results) return false;
   const std::string program = "rpsup " + std::string(kProgramVersionText);
-  const auto is_stopped = [this] { return changes_.is_closed(); };
+  const auto is_stopped = [&] { return changes_.is_closed() || (stop && stop()); };
   if (jobs::write_trajectories(store_->reader, *results, wanted, program, file, is_stopped)) return true;
   throw Stopped("the service is shutting down");
 }

@@ -13,7 +13,7 @@
 namespace jobs {
 namespace {
 
-constexpr std::size_t kSamplesAtATime = 16 * 1024;
+constexpr std::size_t kSamplesOfPiece = 16 * 1024;
 
 class NpzFile final : public TrajectoryFile {
  public:
@@ -42,9 +42,9 @@ class NpzFile final : public TrajectoryFile {
       const auto column = view.read_column(c);
       do {
         values_.clear();
-        column->append_next(kSamplesAtATime, values_);
+        column->append_next(kSamplesOfPiece, values_);
         write_doubles(values_);
-      } while (values_.size() == kSamplesAtATime);
+      } while (values_.size() == kSamplesOfPiece);
       end_array();
     }
   }

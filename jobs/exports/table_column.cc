@@ -18,7 +18,7 @@ double number_of(const json& cell) {
   return cell.is_boolean() ? static_cast<double>(cell.get<bool>()) : cell.get<double>();
 }
 
-std::string text_of(const json& cell) {
+std::string cell_text(const json& cell) {
   if (cell.is_null()) return "";
   return cell.is_string() ? cell.get<std::string>() : cell.dump();
 }
@@ -47,7 +47,7 @@ std::vector<TableColumn> to_columns(const ResultTable& table) {
     column.is_text = !std::ranges::all_of(table.rows, [c](const auto& row) { return is_number(row[c]); });
     if (!column.is_text) column.unit = find_unit(column.name).value_or("");
     for (const auto& row : table.rows) {
-      if (column.is_text) column.texts.push_back(text_of(row[c]));
+      if (column.is_text) column.texts.push_back(cell_text(row[c]));
       else column.numbers.push_back(number_of(row[c]));
     }
   }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "jobs/exports/table_column.h"
@@ -15,9 +13,6 @@ namespace jobs {
 
 /// Formats of files with all trajectories of a sweep.
 enum class TrajectoryFileFormat { kHdf5, kMat, kNpz };
-
-/// Word of each format, which ends the name of a file.
-inline constexpr std::array<std::string_view, 3> kTrajectoryFileWords{"h5", "mat", "npz"};
 
 /// Contents of such a file beside the trajectories.
 struct ExportedSweep {

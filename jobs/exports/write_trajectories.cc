@@ -23,7 +23,7 @@ struct StoredJob {
 };
 
 /// Parts of the sweep's trajectories, by their headers.
-struct Contents {
+struct SweepContents {
   std::vector<StoredJob> jobs;
   std::vector<engine::QuantityInfo> channels;  ///< of any job
   double bytes = 0.0;                          ///< of all numbers, at most
@@ -50,8 +50,9 @@ bool is_wanted(const TrajectoryQuery& query, const std::string& channel) {
          std::ranges::find(query.channels, channel) != query.channels.end();
 }
 
-Contents read_contents(const SweepReader& reader, const SweepResults& sweep, const TrajectoryQuery& query) {
-  Contents contents;
+SweepContents read_contents(const SweepReader& reader, const SweepResults& sweep,
+                            const TrajectoryQuery& query) {
+  SweepContents contents;
   std::set<std::string> known;
   for (std::size_t row = 0; row < sweep.rows.size(); ++row) {
     const std::string& id = sweep.rows[row].job_id;
@@ -106,7 +107,7 @@ void throw_unwritten(const std::filesystem::path& file, int system_error) {
 bool write_trajectories(const SweepReader& reader, const SweepResults& sweep, const TrajectoryExport& wanted,
                         const std::string& program, const std::filesystem::path& file,
                         const std::function<bool()>& stop) {
-  const Contents contents = read_contents(reader, sweep, wanted.query);
+  const SweepContents contents = read_contents(reader, sweep, wanted.query);
   if (contents.jobs.empty()) throw WrongState("no job of sweep " + sweep.sweep.id + " has a trajectory");
   check_query(wanted.query, contents.channels);
   check_room(file, contents.bytes);

@@ -48,7 +48,8 @@ struct ProfileAnswer {
 ///
 ///     S(x_i) = S_best + s^2 c_i q^2,   q: FitIntervals::quantile, c_i: inflation by autocorrelation.
 ///
-/// For white residuals s^2 q^2 is the threshold of the F test of all n parameters together. Secants run on the root of S
+/// For white residuals s^2 q^2 is the threshold of the F test of all n parameters together. Secants run on
+/// the root of S
 /// - S_best, which is linear in x_i for a linear model. Source: Bates & Watts (1988), Nonlinear Regression
 /// Analysis and Its Applications, section 6.1 (profile t).
 [[nodiscard]] ProfileAnswer profile_likelihood(const ProfileProblem& problem, const Evaluations& evaluations);

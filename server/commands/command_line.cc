@@ -167,12 +167,25 @@ CLI::App* add_paper(CLI::App& app, PaperOptions& options) {
 
 CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   CLI::App* const command =
-      app.add_subcommand("export", "Write a consistent copy of a store, even while a service uses it");
-  command->add_option("file", options.file, "SQLite file for the copy; must not exist")
+      app.add_subcommand("export", "Write a consistent copy of a store, even while a service uses it, or the "
+                                   "trajectories of a sweep");
+  command
+      ->add_option("file", options.file, "SQLite file for the copy, or file of trajectories; must not exist")
       ->required()
       ->check(describe_store_name_fault)
       ->type_name("FILE");
   add_store_option(*command, options.store, "SQLite file of sweeps and results")->required();
+  CLI::Option* const sweep =
+      command
+          ->add_option("--trajectories", options.sweep,
+                       "Sweep whose results and trajectories are written instead: .h5, .mat or .npz; no "
+                       "service may use the store, which rpsup trajectory asks")
+          ->type_name("SWEEP");
+  command->add_option("--channels", options.channels, "Channels, separated by commas; all if left out")
+      ->envname("RPSUP_CHANNELS");
+  command->add_option("--from", options.from, "Begin of the trajectories in s")->needs(sweep);
+  command->add_option("--to", options.to, "End of the trajectories in s")->needs(sweep);
+  add_format_option(*command, options.format, DataShape::kTrajectories);
   return command;
 }
 

@@ -2,6 +2,7 @@
 #include "server/commands/output_format.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <optional>
@@ -25,7 +26,14 @@ std::string list_formats(DataShape shape, std::string_view sign) {
   return text;
 }
 
-const char* describe(DataShape shape) { return shape == DataShape::kRows ? "a table" : "a trajectory"; }
+constexpr std::array<const char*, 3> kShapeNames{"a table", "a trajectory", "a file of trajectories"};
+
+const char* describe(DataShape shape) { return kShapeNames[static_cast<std::size_t>(shape)]; }
+
+/// Format of a file whose name has no suffix.
+TableFormat default_format(DataShape shape) {
+  return info_of(TableFormat::kCsv).holds(shape) ? TableFormat::kCsv : formats_of(shape).front().format;
+}
 
 /// Suffix of a file's name in lower case, without its dot.
 std::string suffix_of(const std::string& path) {
@@ -49,7 +57,8 @@ void add_format_option(CLI::App& command, std::string& format, DataShape shape) 
   command
       .add_option("--format", format,
                   "Format of " + std::string(describe(shape)) + ": " + list_formats(shape, "") +
-                      "; if left out, that of the file's suffix, else csv")
+                      "; if left out, that of the file's suffix, else " +
+                      std::string(info_of(default_format(shape)).word))
       ->check(CLI::IsMember(words))
       ->envname("RPSUP_FORMAT");
 }
@@ -59,7 +68,7 @@ TableFormat find_output_format(const OutputFile& file, const std::string& format
   if (!format.empty() && !asked)
     throw BadInput("--format " + format + ": " + describe(shape) + " is " + list_formats(shape, ""));
   const std::string suffix = file.path == "-" ? "" : suffix_of(file.path);
-  if (suffix.empty()) return asked.value_or(TableFormat::kCsv);
+  if (suffix.empty()) return asked.value_or(default_format(shape));
   const auto named = find_format_of(suffix, shape);
   if (!named) {
     throw BadInput(file.option + " " + file.path + ": the name of " + describe(shape) + " must end in " +

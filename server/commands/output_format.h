@@ -20,7 +20,7 @@ struct OutputFile {
 /// Adds --format with all formats: the environment and the configuration file may give one to any command.
 void add_format_option(CLI::App& command, std::string& format, DataShape shape);
 
-/// Format of an output: that of its suffix, else that of --format, else CSV.
+/// Format of an output: that of its suffix, else that of --format, else CSV, or HDF5 of trajectories.
 /// @param format  word of --format; empty: left out
 /// @throws BadInput if a suffix or --format names no format for data of that shape, or if they differ
 [[nodiscard]] TableFormat find_output_format(const OutputFile& file, const std::string& format,

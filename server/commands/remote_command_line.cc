@@ -163,8 +163,10 @@ Command add_results(CLI::App& app) {
 
 Command add_trajectory(CLI::App& app) {
   const auto options = std::make_shared<TrajectoryOptions>();
-  CLI::App* const command =
-      add_command(app, "trajectory", "Print the channels of a job or a measurement over time", *options);
+  CLI::App* const command = add_command(
+      app, "trajectory",
+      "Print the channels of a job or a measurement over time, or save those of all jobs of a sweep",
+      *options);
   add_id_option(*command, options->id)->required();
   command->add_option("--channels", options->channels, "Channels, separated by commas; all if left out")
       ->envname("RPSUP_CHANNELS");
@@ -178,7 +180,9 @@ Command add_trajectory(CLI::App& app) {
   command->add_option("--run", options->run, "Run of a measurement; the first if left out")
       ->type_name("UINT");
   add_format_option(*command, options->format, DataShape::kColumns);
-  add_output_option(*command, options->output, "Output file: .json, .csv or .npz; - writes standard output");
+  add_output_option(*command, options->output,
+                    "Output file: .json, .csv or .npz, and .h5, .mat or .npz of a sweep; - writes standard "
+                    "output");
   return make_remote_command(command, options, trajectory);
 }
 

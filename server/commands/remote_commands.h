@@ -92,7 +92,7 @@ struct TrajectoryOptions {
   std::string run{};         ///< of a measurement
 };
 
-/// Writes the channels of a job or a measurement over time.
+/// Writes the channels of a job or a measurement over time, or those of all jobs of a sweep.
 int trajectory(const TrajectoryOptions& options);
 
 struct ReportOptions {

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands that fetch what a service has computed.
+#include <unistd.h>
+
 #include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "server/commands/command.h"
@@ -47,6 +55,63 @@ int write_part(const RemoteOptions& remote, std::pair<Kind, const std::string&> 
   return kDone;
 }
 
+/// File that gets its name when all of it is there. "-": standard output.
+class GrowingFile {
+ public:
+  explicit GrowingFile(std::string path) : path_(std::move(path)) {
+    if (path_ != "-") file_.open(part(), std::ios::binary | std::ios::trunc);
+  }
+  ~GrowingFile() {
+    std::error_code ignored;
+    if (path_ != "-" && !is_kept_) std::filesystem::remove(part(), ignored);
+  }
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  bool append(std::string_view piece) {
+    std::ostream& stream = path_ == "-" ? std::cout : file_;
+    return static_cast<bool>(stream.write(piece.data(), static_cast<std::streamsize>(piece.size())));
+  }
+
+  void keep() {
+    if (path_ == "-") return check_standard_output();
+    file_.close();
+    if (!file_) throw std::runtime_error("cannot write " + part());
+    std::filesystem::rename(part(), path_);
+    is_kept_ = true;
+  }
+
+ private:
+  [[nodiscard]] std::string part() const { return path_ + ".part"; }
+
+  std::string path_;
+  std::ofstream file_;
+  bool is_kept_ = false;
+};
+
+/// Writes the trajectories of all jobs of a sweep, as they come.
+int save_trajectories(const TrajectoryOptions& options, const OutputFile& output, const QueryItems& query) {
+  constexpr std::chrono::minutes kPatience{10};  // the service makes the file before it sends any of it
+  const TableFormat format = check_output(output, options.format, DataShape::kTrajectories);
+  if (!options.points.empty() || !options.run.empty())
+    throw BadInput("--points and --run are for a job or a measurement; a file of a sweep has every sample");
+  if (output.path == "-" && isatty(STDOUT_FILENO) != 0)
+    throw BadInput("a file of trajectories is no text: give its name with --output");
+  RemoteService service(options.remote);
+  service.set_patience(kPatience);
+  GrowingFile file(output.path);
+  bool is_written = true;
+  try {
+    service.save_part(Kind::kSweep, options.id, "trajectories", std::string(info_of(format).media_type),
+                      query, [&](std::string_view piece) { return is_written = file.append(piece); });
+  } catch (const Unreachable&) {
+    if (!is_written) throw std::runtime_error("cannot write " + output.path + ": is the disk full?");
+    throw;
+  }
+  file.keep();
+  return kDone;
+}
+
 }  // namespace
 
 int results(const ResultsOptions& options) {
@@ -65,11 +130,12 @@ int results(const ResultsOptions& options) {
 int trajectory(const TrajectoryOptions& options) {
   const Kind kind = checked_kind("trajectory", options.id);
   const OutputFile output{"--output", options.output};
-  const TableFormat format = check_output(output, options.format, DataShape::kColumns);
   QueryItems query;
   add_if_given(query, "channels", options.channels);
   add_if_given(query, "from", options.from);
   add_if_given(query, "to", options.to);
+  if (kind == Kind::kSweep) return save_trajectories(options, output, query);
+  const TableFormat format = check_output(output, options.format, DataShape::kColumns);
   add_if_given(query, "points", options.points);
   add_if_given(query, "run", options.run);
   const char* const part = kind == Kind::kJob ? "trajectory" : "data";

@@ -46,7 +46,7 @@ inline constexpr std::span<const Kind> kRunningKinds = std::span(kAllKinds).firs
 inline constexpr std::array kTableKinds{Kind::kSweep, Kind::kSearch, Kind::kWearStudy, Kind::kOptimisation,
                                         Kind::kFit};
 inline constexpr std::array kSweepKind{Kind::kSweep};
-inline constexpr std::array kChannelKinds{Kind::kJob, Kind::kMeasurement};
+inline constexpr std::array kChannelKinds{Kind::kJob, Kind::kSweep, Kind::kMeasurement};
 
 /// Command that takes ids, and the kinds that it takes.
 struct IdCommand {

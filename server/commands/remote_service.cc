@@ -72,9 +72,7 @@ std::string query_encoded(const std::string& value) {
   return text;
 }
 
-std::string path_of(Kind kind, const std::string& id) {
-  return std::string(info_of(kind).path) + "/" + id;
-}
+std::string path_of(Kind kind, const std::string& id) { return std::string(info_of(kind).path) + "/" + id; }
 
 std::string with_query(std::string path, const QueryItems& query) {
   const char* separator = "?";
@@ -120,11 +118,23 @@ std::string RemoteService::get_part(Kind kind, const std::string& id, std::strin
   const std::string path = path_of(kind, id) + "/" + std::string(part);
   auto answer = client_.get(with_query(path, query), media_type);
   check(answer);
-  if (!answer.content_type.starts_with(media_type)) {
-    throw std::runtime_error(url_ + " answers, but not as this service does: no " + media_type +
-                             ". Is --url right?");
-  }
+  check_type(answer, media_type);
   return std::move(answer.body);
+}
+
+void RemoteService::save_part(Kind kind, const std::string& id, std::string_view part,
+                              const std::string& media_type, const QueryItems& query,
+                              const std::function<bool(std::string_view)>& take) {
+  const std::string path = path_of(kind, id) + "/" + std::string(part);
+  const auto answer = client_.get(with_query(path, query), media_type, take);
+  check(answer);
+  check_type(answer, media_type);
+}
+
+void RemoteService::check_type(const HttpClient::Answer& answer, const std::string& media_type) const {
+  if (answer.content_type.starts_with(media_type)) return;
+  throw std::runtime_error(url_ + " answers, but not as this service does: no " + media_type +
+                           ". Is --url right?");
 }
 
 std::string RemoteService::page_of(Kind kind, const std::string& id) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,12 +57,16 @@ class RemoteService {
   /// @param part  "results", say
   [[nodiscard]] std::string get_part(Kind kind, const std::string& id, std::string_view part,
                                      const std::string& media_type, const QueryItems& query = {});
+  /// The same, piece by piece. @param take  false: it cannot take more
+  void save_part(Kind kind, const std::string& id, std::string_view part, const std::string& media_type,
+                 const QueryItems& query, const std::function<bool(std::string_view)>& take);
   /// URL of a resource's page on the dashboard.
   [[nodiscard]] std::string page_of(Kind kind, const std::string& id) const;
 
  private:
   [[nodiscard]] Json read(const HttpClient::Answer& answer) const;
   void check(const HttpClient::Answer& answer) const;
+  void check_type(const HttpClient::Answer& answer, const std::string& media_type) const;
 
   std::string url_;
   HttpClient client_;

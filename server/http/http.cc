@@ -109,7 +109,8 @@ bool is_safe_of_a_page(const std::string& content_type) {
 
 /// Names of codings have no case; "x-gzip" is "gzip" (RFC 9110, section 8.4.1).
 BodyForm body_form(const httplib::Request& request) {
-  BodyForm form{.chunked = request.has_header("Transfer-Encoding"), .content_length = 0,
+  BodyForm form{.chunked = request.has_header("Transfer-Encoding"),
+                .content_length = 0,
                 .coding = request.get_header_value("Content-Encoding")};
   std::ranges::transform(form.coding, form.coding.begin(), [](unsigned char c) { return std::tolower(c); });
   if (form.coding == "x-gzip") form.coding = "gzip";
@@ -207,7 +208,8 @@ class HttpServer::Impl {
     if (!origin_check_.is_allowed(origin)) return;
     response.set_header("Access-Control-Allow-Origin", origin);
     response.set_header("Access-Control-Expose-Headers",
-                        "Accept-Ranges, Content-Disposition, Content-Range, ETag, Location, Preference-Applied, Retry-After, X-Request-Id");
+                        "Accept-Ranges, Content-Disposition, Content-Range, ETag, Location, "
+                        "Preference-Applied, Retry-After, X-Request-Id");
   }
 
   /// What a browser asks on behalf of such a page before it sends the request itself.
@@ -220,7 +222,8 @@ class HttpServer::Impl {
     response.status = 204;
     response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
     response.set_header("Access-Control-Allow-Headers",
-                        "Authorization, Content-Type, Idempotency-Key, If-None-Match, If-Range, Last-Event-ID, Prefer, Range");
+                        "Authorization, Content-Type, Idempotency-Key, If-None-Match, If-Range, "
+                        "Last-Event-ID, Prefer, Range");
     response.set_header("Access-Control-Max-Age", "600");
     // Chrome asks this where a page from elsewhere speaks to this machine.
     if (request.has_header("Access-Control-Request-Private-Network"))
@@ -267,8 +270,7 @@ class HttpServer::Impl {
         if (!permit)
           return copy_to(response, make_retry_later(503, "as many large bodies wait as may; try again"));
       }
-      if (!fault)
-        fault = read_request_body(GuardedServer::read_body, body_form(request), body_bytes, body);
+      if (!fault) fault = read_request_body(GuardedServer::read_body, body_form(request), body_bytes, body);
       if (fault) return copy_to(response, make_problem(fault->status, fault->detail));
     }
     answer(request, std::move(body), response);
@@ -318,9 +320,8 @@ class HttpServer::Impl {
     request.id = request_ids_.next();
     // Without the slash a browser would take the addresses of the page for those beside it.
     const bool slash_is_missing = !options.base_path.empty() && from.path == options.base_path;
-    Response response = slash_is_missing
-                            ? make_redirect(from.path.substr(from.path.rfind('/') + 1) + "/")
-                            : routes_.answer(request);
+    Response response = slash_is_missing ? make_redirect(from.path.substr(from.path.rfind('/') + 1) + "/")
+                                         : routes_.answer(request);
     if (response.events && !guard.reserve_event_stream(response.events))
       response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
@@ -336,7 +337,7 @@ class HttpServer::Impl {
   AccessCheck access_check_;
   RequestIds request_ids_;
   WorkLimit measurement_bodies_{1, 8};  // of up to 64 MiB
-  WorkLimit large_bodies_{6, 16};  // of up to 8 MiB each, read and served
+  WorkLimit large_bodies_{6, 16};       // of up to 8 MiB each, read and served
 
  public:
   GuardedServer guard;  // last: its handlers use what stands above

@@ -36,11 +36,15 @@ std::string describe(httplib::Error error) {
   switch (error) {
     case httplib::Error::Connection:
       return "nothing answers there; is the service running (rpsup serve), and is --url or RPSUP_URL right?";
-    case httplib::Error::ConnectionTimeout: return "no connection in time";
-    case httplib::Error::SSLServerVerification: return "its certificate is not one that this machine trusts";
+    case httplib::Error::ConnectionTimeout:
+      return "no connection in time";
+    case httplib::Error::SSLServerVerification:
+      return "its certificate is not one that this machine trusts";
     case httplib::Error::SSLConnection:
-    case httplib::Error::SSLLoadingCerts: return "no secure connection";
-    default: return "the connection broke before the answer was there";
+    case httplib::Error::SSLLoadingCerts:
+      return "no secure connection";
+    default:
+      return "the connection broke before the answer was there";
   }
 }
 
@@ -72,6 +76,26 @@ class HttpClient::Impl {
 
   Answer get(const std::string& path, const std::string& accept) {
     return take(client_.Get(url_.prefix + path, httplib::Headers{{"Accept", accept}}));
+  }
+
+  Answer get(const std::string& path, const std::string& accept,
+             const std::function<bool(std::string_view)>& take_piece) {
+    bool good = false;
+    std::string problem;
+    const auto result = client_.Get(
+        url_.prefix + path, httplib::Headers{{"Accept", accept}},
+        [&](const httplib::Response& response) {
+          good = response.status == 200;
+          return true;
+        },
+        [&](const char* data, std::size_t size) {
+          if (good) return take_piece({data, size});
+          problem.append(data, size);
+          return true;
+        });
+    Answer answer = take(result);
+    answer.body = std::move(problem);
+    return answer;
   }
 
   Answer post(const std::string& path, const std::string& body, const std::string& media_type,
@@ -107,6 +131,10 @@ HttpClient::~HttpClient() = default;
 
 HttpClient::Answer HttpClient::get(const std::string& path, const std::string& accept) {
   return impl_->get(path, accept);
+}
+HttpClient::Answer HttpClient::get(const std::string& path, const std::string& accept,
+                                   const std::function<bool(std::string_view)>& take) {
+  return impl_->get(path, accept, take);
 }
 HttpClient::Answer HttpClient::post(const std::string& path, const std::string& body) {
   return impl_->post(path, body, "application/json", "");

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace server {
 
@@ -45,6 +47,10 @@ class HttpClient {
   /// @param accept  media type that is wanted
   /// @throws Unreachable
   [[nodiscard]] Answer get(const std::string& path, const std::string& accept);
+  /// The same, the body of success given to take() piece by piece instead of kept.
+  /// @param take  false: it cannot take more
+  [[nodiscard]] Answer get(const std::string& path, const std::string& accept,
+                           const std::function<bool(std::string_view)>& take);
   /// @param body  JSON; may be empty
   /// @throws Unreachable
   Answer post(const std::string& path, const std::string& body);

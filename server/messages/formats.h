@@ -10,28 +10,30 @@
 
 namespace server {
 
-enum class TableFormat { kJson, kCsv, kNdjson, kNpz };
+enum class TableFormat { kJson, kCsv, kNdjson, kHdf5, kMat, kNpz };
 
-/// Kind of data that is written: a table of rows, or channels over time.
-enum class DataShape { kRows, kColumns };
+/// Kind of data that is written: a table of rows, channels over time, or those of all jobs of a sweep.
+enum class DataShape { kRows, kColumns, kTrajectories };
 
 struct FormatInfo {
   TableFormat format;
-  std::string_view word;        ///< of ?format= and --format, and the end of a file's name
+  std::string_view word;  ///< of ?format= and --format, and the end of a file's name
   std::string_view media_type;
-  bool holds_rows, holds_columns;
+  std::array<bool, 3> shapes;  ///< by DataShape
 
   [[nodiscard]] constexpr bool holds(DataShape shape) const {
-    return shape == DataShape::kRows ? holds_rows : holds_columns;
+    return shapes[static_cast<std::size_t>(shape)];
   }
 };
 
 /// All formats, the default of a request without format first. By TableFormat.
-inline constexpr std::array<FormatInfo, 4> kFormats{
-    {{TableFormat::kJson, "json", "application/json", true, true},
-     {TableFormat::kCsv, "csv", "text/csv", true, true},
-     {TableFormat::kNdjson, "ndjson", "application/x-ndjson", true, false},
-     {TableFormat::kNpz, "npz", "application/x-npz", false, true}}};
+inline constexpr std::array<FormatInfo, 6> kFormats{
+    {{TableFormat::kJson, "json", "application/json", {true, true, false}},
+     {TableFormat::kCsv, "csv", "text/csv", {true, true, false}},
+     {TableFormat::kNdjson, "ndjson", "application/x-ndjson", {true, false, false}},
+     {TableFormat::kHdf5, "h5", "application/x-hdf5", {false, false, true}},
+     {TableFormat::kMat, "mat", "application/x-matlab-data", {false, false, true}},
+     {TableFormat::kNpz, "npz", "application/x-npz", {false, true, true}}}};
 
 [[nodiscard]] constexpr const FormatInfo& info_of(TableFormat format) {
   return kFormats[static_cast<std::size_t>(format)];

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "jobs/exports/trajectory_file.h"
 #include "jobs/motion/spectrum.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/results/page_query.h"
@@ -62,7 +61,8 @@ std::vector<RequestParameter> make_query_parameters() {
        {{"type", "object"}, {"additionalProperties", kText}}},
       {"row_format", "query", "format", "Instead of the Accept header", format_enum(DataShape::kRows)},
       {"column_format", "query", "format", "Instead of the Accept header", format_enum(DataShape::kColumns)},
-      {"export_format", "query", "format", "Instead of the Accept header", {{"type", "string"}, {"enum", jobs::kTrajectoryFileWords}}},
+      {"export_format", "query", "format", "Instead of the Accept header",
+       format_enum(DataShape::kTrajectories)},
       {"metric", "query", "metric",
        "The metric; if left out the peak of the slider's acceleration, or the first one of a described "
        "linkage",
@@ -108,7 +108,10 @@ std::vector<RequestParameter> make_query_parameters() {
        "The clearance whose life is asked for",
        {{"type", "number"}}},
       {"channels", "query", "channels", "These columns, after t_s; all if left out", kNames},
-      {"measurement_name", "query", "name", "Name of the measurement; of CSV and NPZ",
+      {"measurement_name",
+       "query",
+       "name",
+       "Name of the measurement; of CSV and NPZ",
        {{"type", "string"}, {"maxLength", jobs::kLongestName}}},
       {"measurement_time", "query", "time",
        "Column of the time, in s; of CSV and NPZ. If left out time_s, t_s, or the first column of CSV",
@@ -137,8 +140,10 @@ std::vector<RequestParameter> make_header_parameters() {
        "The same key with the same request is answered as before; nothing is made twice",
        {{"type", "string"}, {"minLength", 1}, {"maxLength", 255}, {"pattern", "^[!-~]+$"}}},
       {"if_none_match", "header", "If-None-Match", "An ETag: 304 if nothing has changed", kText},
-      {"range", "header", "Range", "bytes=N-: the rest of the file, to go on with a download; several ranges get all of it", kText},
-      {"if_range", "header", "If-Range", "The ETag of the part that has come: all of the file if its bytes have changed", kText},
+      {"range", "header", "Range",
+       "bytes=N-: the rest of the file, to go on with a download; several ranges get all of it", kText},
+      {"if_range", "header", "If-Range",
+       "The ETag of the part that has come: all of the file if its bytes have changed", kText},
       {"last_event_id", "header", "Last-Event-ID", "The id of the last event that was received", kText},
       {"prefer", "header", "Prefer",
        "wait=N: the answer waits for the end of the job, sweep or study, N s at most", kText},

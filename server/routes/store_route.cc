@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -20,12 +18,12 @@
 #include "jobs/base/errors.h"
 #include "jobs/exports/write_trajectories.h"
 #include "jobs/store/store_lock.h"
-#include "server/messages/accept.h"
 #include "server/messages/byte_range.h"
 #include "server/messages/conditional.h"
 #include "server/messages/error_answer.h"
 #include "server/messages/problem.h"
 #include "server/messages/query.h"
+#include "server/routes/tables.h"
 
 namespace server {
 
@@ -71,21 +69,10 @@ class ExportFile {
   std::filesystem::path path_;
 };
 
-constexpr std::array<std::string_view, 3> kExportTypes{"application/x-hdf5", "application/x-matlab-data",
-                                                       "application/x-npz"};
-
-/// `?format=` first, then the Accept header, then HDF5.
-jobs::TrajectoryFileFormat find_export_format(const Request& request, Query& query) {
-  const auto& words = jobs::kTrajectoryFileWords;
-  auto index = static_cast<std::ptrdiff_t>(find_accepted(request.accept, kExportTypes).value_or(0));
-  if (const auto word = query.word("format", {words[0], words[1], words[2]}))
-    index = std::ranges::find(words, *word) - words.begin();
-  return static_cast<jobs::TrajectoryFileFormat>(index);
-}
-
-jobs::TrajectoryExport read_export(const Request& request, Query& query) {
+jobs::TrajectoryExport read_export(TableFormat format, Query& query) {
   jobs::TrajectoryExport wanted;
-  wanted.format = find_export_format(request, query);
+  if (format == TableFormat::kMat) wanted.format = jobs::TrajectoryFileFormat::kMat;
+  if (format == TableFormat::kNpz) wanted.format = jobs::TrajectoryFileFormat::kNpz;
   wanted.query.channels = query.list("channels");
   wanted.query.from = query.number("from");
   wanted.query.to = query.number("to");
@@ -134,7 +121,8 @@ Response get_store(const RequestContext& context) {
 
 Response get_trajectories(const RequestContext& context) {
   Query query(context.request, {"channels", "from", "to", "format"});
-  const jobs::TrajectoryExport wanted = read_export(context.request, query);
+  const TableFormat format = find_trajectories_format(context.request, query);
+  const jobs::TrajectoryExport wanted = read_export(format, query);
   auto permit = context.export_limit.acquire();
   if (!permit) return make_retry_later(503, "as many files of trajectories are being made or sent as may");
   const ExportFile file(context.service.store_file());
@@ -143,13 +131,12 @@ Response get_trajectories(const RequestContext& context) {
   if (!is_there) throw HttpError(404, "there is no sweep " + context.id);
   const auto body = open_nameless(file.path(), std::move(permit));
   const std::string etag = etag_of(*body);
-  const auto format = static_cast<std::size_t>(wanted.format);
   Response response;
-  response.content_type = kExportTypes.at(format);
+  response.content_type = info_of(format).media_type;
   response.headers = {{"Vary", "Accept"},
                       {"Cache-Control", "private, no-cache"},
                       {"Content-Disposition", "attachment; filename=\"sweep-" + context.id + "." +
-                                                  std::string(jobs::kTrajectoryFileWords.at(format)) + "\""}};
+                                                  std::string(info_of(format).word) + "\""}};
   response = with_etag(context.request, std::move(response), etag);
   if (response.status != 200) return response;
   return answer_with_file(context.request, std::move(response), body, etag);

@@ -38,6 +38,10 @@ TableFormat find_column_format(const Request& request, Query& query) {
   return find_asked_format(request, query, DataShape::kColumns);
 }
 
+TableFormat find_trajectories_format(const Request& request, Query& query) {
+  return find_asked_format(request, query, DataShape::kTrajectories);
+}
+
 std::string to_text(const jobs::ResultTable& table, TableFormat format) {
   if (format == TableFormat::kCsv) return jobs::to_csv(table);
   return format == TableFormat::kNdjson ? jobs::to_json_lines(table) : jobs::to_json_rows(table);

@@ -16,6 +16,8 @@ namespace server {
 [[nodiscard]] TableFormat find_row_format(const Request& request, Query& query);
 /// The same for a trajectory: `?format=csv|json|npz`.
 [[nodiscard]] TableFormat find_column_format(const Request& request, Query& query);
+/// The same for the trajectories of a sweep: `?format=h5|mat|npz`, else HDF5.
+[[nodiscard]] TableFormat find_trajectories_format(const Request& request, Query& query);
 
 /// A JSON array of flat objects, one a row; every object has every column. Where sets have replicates each
 /// has, after the metrics, replicates_count, _mean, _spread, _min and _max of its set.

@@ -125,6 +125,41 @@ TEST(GetTrajectories, RefusesWhatThereIsNot) {
   EXPECT_NE(early.body.find("has a trajectory"), std::string::npos) << early.body;
 }
 
+TEST(KeepMetrics, StoresNoTrajectories) {
+  Bench bench;
+  const std::string all = bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.2]}})");
+  const std::string metrics = bench.run(R"({"keep": "metrics", "sweep": {"clearance_mm": [0.1, 0.2]}})");
+  const auto rows_of = [&](const std::string& id) {
+    json rows = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body);
+    for (json& row : rows) row.erase("job_id");
+    return rows;
+  };
+  EXPECT_EQ(rows_of(metrics), rows_of(all));
+  EXPECT_EQ(fetch(bench, metrics, {}).status, 409);
+  const auto rows = json::parse(bench.call("GET", "/v1/sweeps/" + metrics + "/results").body);
+  const std::string job = rows[0].at("job_id");
+  EXPECT_EQ(bench.call("GET", "/v1/jobs/" + job + "/trajectory").status, 404);
+  EXPECT_EQ(json::parse(bench.call("GET", "/v1/jobs/" + job).body).at("parameters").at("keep"), "metrics");
+  // A job with its trajectory does not take the place of one without, nor the other way round.
+  EXPECT_EQ(fetch(bench, bench.run(R"({"keep": "all", "sweep": {"clearance_mm": [0.1, 0.2]}})"), {}).status,
+            200);
+}
+
+TEST(KeepMetrics, IsRefusedWhereTrajectoriesAreRead) {
+  Bench bench;
+  const auto pointer_of = [&](const std::string& path, const std::string& body) {
+    const auto refused = bench.call("POST", path, body);
+    EXPECT_EQ(refused.status, 422) << refused.body;
+    return json::parse(refused.body).at("errors")[0].at("pointer").get<std::string>();
+  };
+  EXPECT_EQ(pointer_of("/v1/sweeps", R"({"keep": "nothing"})"), "/keep");
+  EXPECT_EQ(pointer_of("/v1/jobs", R"({"keep": 1})"), "/keep");
+  EXPECT_EQ(pointer_of("/v1/wear-studies",
+                       R"({"parameters": {"keep": "metrics", "clearance_mm": 0.1}, "hours": 10,
+                           "wear_coefficient_m2_n": 1e-15})"),
+            "/parameters/keep");
+}
+
 TEST(GetTrajectories, LeavesNoFileBesideTheStore) {
   Bench bench;
   const std::string id = make_sweep(bench);
