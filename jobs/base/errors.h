@@ -62,7 +62,8 @@ class StorageError : public std::runtime_error {
   bool full;
 };
 
-/// The store holds as much as it may, although the disk may have room. The text is for the user.
+/// The store holds as much as it may, or a file would need more than the disk has left. The text is for the
+/// user.
 class StoreLimitReached : public StorageError {
  public:
   explicit StoreLimitReached(const std::string& what) : StorageError(what, 0, Disk::kFull) {}

@@ -73,6 +73,8 @@ class Hdf5File final : public TrajectoryFile {
 
  private:
   static hid_t create(const std::filesystem::path& path) {
+    // The library's work at the end of the process crashes where a file could not be written.
+    [[maybe_unused]] static const herr_t no_work_at_exit = H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by exceptions, not on the terminal
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   }
@@ -152,7 +154,7 @@ class Hdf5File final : public TrajectoryFile {
     const hsize_t samples = view.samples();
     const Hdf5Object dataset =
         make_dataset(group, name, H5T_NATIVE_DOUBLE, samples, std::min(samples, kSamplesOfChunk));
-    add_attribute(dataset.id(), "unit", std::string(find_unit(name).value_or("")));
+    if (const auto unit = find_unit(name)) add_attribute(dataset.id(), "unit", std::string(*unit));
     const Hdf5Object space(check(H5Dget_space(dataset.id())), H5Sclose);
     const auto column = view.read_column(channel);
     for (hsize_t from = 0; from < samples; from += kSamplesOfChunk) {

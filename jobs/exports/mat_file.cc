@@ -4,9 +4,9 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
+#include <fstream>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include <matio.h>
@@ -118,10 +118,6 @@ class MatFile final : public TrajectoryFile {
   MatFile& operator=(const MatFile&) = delete;
 
   void add(const std::string& job, const std::string& job_id, const TrajectoryView& view) override {
-    constexpr std::size_t kMostBytes = 1U << 31U;
-    if (view.samples() * view.channels().size() * sizeof(double) >= kMostBytes)
-      throw std::length_error("the trajectory of " + job_id +
-                              " has more than the 2 GiB of a MAT file; take fewer channels, or HDF5");
     MatStruct columns;
     columns.add("job_id", make_text(job_id));
     for (std::size_t c = 0; c < view.channels().size(); ++c) {
@@ -129,7 +125,7 @@ class MatFile final : public TrajectoryFile {
       values_.clear();
       view.read_column(c)->append_next(view.samples(), values_);
       columns.add(name, make_numbers(values_));
-      units_.insert_or_assign(name, find_unit(name).value_or(""));
+      if (const auto unit = find_unit(name)) units_.insert_or_assign(name, *unit);
     }
     write(columns.make(job));
   }
@@ -138,14 +134,28 @@ class MatFile final : public TrajectoryFile {
     MatStruct units;
     for (const auto& [name, unit] : units_) units.add(name, make_text(unit));
     write(units.make("units"));
-    if (Mat_Close(std::exchange(file_, nullptr)) != 0) throw_unwritten(path_, errno);
+    errno = 0;
+    const bool is_closed = Mat_Close(std::exchange(file_, nullptr)) == 0;
+    if (!is_closed || !is_complete()) throw_unwritten(path_, errno);
   }
 
  private:
   void write(const MatVariable& variable) {
-    errno = 0;
-    if (Mat_VarWrite(file_, variable.get(), MAT_COMPRESSION_ZLIB) != 0 || errno == ENOSPC)
-      throw_unwritten(path_, errno);
+    if (Mat_VarWrite(file_, variable.get(), MAT_COMPRESSION_ZLIB) != 0) throw_unwritten(path_, errno);
+  }
+
+  /// Whether the file has every byte of its variables: the library does not tell of those that the disk did
+  /// not take. Each variable begins with its type and its size.
+  [[nodiscard]] bool is_complete() const {
+    constexpr std::streamoff kHeadBytes = 128;
+    const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path_));
+    std::ifstream file(path_, std::ios::binary);
+    std::streamoff at = kHeadBytes;
+    for (std::array<std::uint32_t, 2> tag{}; at < size; at += 8 + static_cast<std::streamoff>(tag[1])) {
+      file.seekg(at);
+      if (!file.read(reinterpret_cast<char*>(tag.data()), sizeof tag)) return false;
+    }
+    return at == size;
   }
 
   std::filesystem::path path_;

@@ -70,6 +70,7 @@ class NpzFile final : public TrajectoryFile {
   void end_array() { check(zipCloseFileInZip(archive_)); }
 
   void write(const void* bytes, std::size_t size) {
+    if (size == 0) return;  // of nothing, which a null pointer may be, zlib begins the checksum anew
     check(zipWriteInFileInZip(archive_, bytes, static_cast<unsigned>(size)));
   }
 

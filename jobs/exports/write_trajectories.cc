@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
+#include <string>
 #include <utility>
 
 #include "jobs/base/errors.h"
@@ -16,6 +16,7 @@ namespace jobs {
 namespace {
 
 constexpr double kMegabyte = 1e6;
+constexpr double kMostMatBytes = 2147483648.0;  // of one variable of level 5
 
 /// Trajectory of a job, which is read twice: to know how much there is, and to write it.
 struct StoredJob {
@@ -50,20 +51,41 @@ bool is_wanted(const TrajectoryQuery& query, const std::string& channel) {
          std::ranges::find(query.channels, channel) != query.channels.end();
 }
 
-SweepContents read_contents(const SweepReader& reader, const SweepResults& sweep,
-                            const TrajectoryQuery& query) {
+/// Number of samples between the times of a query.
+std::size_t count_samples(const StoredBytes& blob, const TrajectoryQuery& query) {
+  TrajectoryView times(blob, {.channels = {"t_s"}, .from = query.from, .to = query.to});
+  times.load(blob);
+  return times.samples();
+}
+
+void add_job(const StoredBytes& blob, const TrajectoryExport& wanted, SweepContents& contents) {
+  std::size_t channels = 0;
+  for (engine::QuantityInfo& channel : PackedTrajectory(blob).channels()) {
+    if (is_wanted(wanted.query, channel.key)) ++channels;
+    const bool is_new = std::ranges::find(contents.channels, channel.key, &engine::QuantityInfo::key) ==
+                        contents.channels.end();
+    if (is_new) contents.channels.push_back(std::move(channel));
+  }
+  const double bytes = static_cast<double>(sizeof(double) * count_samples(blob, wanted.query) * channels);
+  if (wanted.format == TrajectoryFileFormat::kMat && bytes >= kMostMatBytes)
+    throw InvalidRequest(std::vector<Fault>{
+        {"/format",
+         "a MAT file holds 2 GiB of a job at most; take h5, fewer channels or a part of the time"}});
+  contents.bytes += bytes;
+}
+
+/// @returns empty if stop() said so
+std::optional<SweepContents> read_contents(const SweepReader& reader, const SweepResults& sweep,
+                                           const TrajectoryExport& wanted,
+                                           const std::function<bool()>& stop) {
+  check_query({.channels = {}, .from = wanted.query.from, .to = wanted.query.to}, {});
   SweepContents contents;
-  std::set<std::string> known;
   for (std::size_t row = 0; row < sweep.rows.size(); ++row) {
+    if (stop()) return std::nullopt;
     const std::string& id = sweep.rows[row].job_id;
     if (!sweep.rows[row].metrics) continue;
-    const bool has_one = read_stored(reader, id, [&](const StoredBytes& blob) {
-      const PackedTrajectory packed(blob);
-      for (engine::QuantityInfo& channel : packed.channels()) {
-        if (is_wanted(query, channel.key)) contents.bytes += 8.0 * static_cast<double>(packed.samples());
-        if (known.insert(channel.key).second) contents.channels.push_back(std::move(channel));
-      }
-    });
+    const bool has_one =
+        read_stored(reader, id, [&](const StoredBytes& blob) { add_job(blob, wanted, contents); });
     if (has_one) contents.jobs.push_back({name_of_job(row), id});
   }
   return contents;
@@ -86,10 +108,9 @@ void check_room(const std::filesystem::path& file, double bytes) {
   const auto space = std::filesystem::space(std::filesystem::absolute(file).parent_path(), unknown);
   if (unknown || static_cast<double>(space.available) > bytes) return;
   const auto megabytes = [](double size) { return std::to_string(std::llround(size / kMegabyte)) + " MB"; };
-  throw StorageError("the file may take " + megabytes(bytes) + " and the disk has " +
-                         megabytes(static_cast<double>(space.available)) +
-                         " left; ask for fewer channels, or for a part of the time",
-                     0, Disk::kFull);
+  throw StoreLimitReached("the file may take " + megabytes(bytes) + " and the disk has " +
+                          megabytes(static_cast<double>(space.available)) +
+                          " left; ask for fewer channels, or for a part of the time");
 }
 
 std::unique_ptr<TrajectoryFile> create_file(TrajectoryFileFormat format, const std::filesystem::path& file,
@@ -107,8 +128,12 @@ void throw_unwritten(const std::filesystem::path& file, int system_error) {
 bool write_trajectories(const SweepReader& reader, const SweepResults& sweep, const TrajectoryExport& wanted,
                         const std::string& program, const std::filesystem::path& file,
                         const std::function<bool()>& stop) {
-  const SweepContents contents = read_contents(reader, sweep, wanted.query);
-  if (contents.jobs.empty()) throw WrongState("no job of sweep " + sweep.sweep.id + " has a trajectory");
+  const auto read = read_contents(reader, sweep, wanted, stop);
+  if (!read) return false;
+  const SweepContents& contents = *read;
+  if (contents.jobs.empty())
+    throw WrongState("no job of sweep " + sweep.sweep.id +
+                     " has a trajectory; one with \"keep\": \"metrics\" has none");
   check_query(wanted.query, contents.channels);
   check_room(file, contents.bytes);
   const auto written = create_file(wanted.format, file,

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/span.h"
@@ -39,7 +40,8 @@ bool check_span(const json& axis, const std::string& pointer, std::vector<Fault>
 class SpanValues {
  public:
   explicit SpanValues(const json& span)
-      : ends_{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(),
+      : ends_{.from = span.at("from").get<double>(),
+              .to = span.at("to").get<double>(),
               .logarithmic = span.value("scale", "linear") == "log"},
         count_(span.at("count").get<std::uint64_t>()) {}
 
@@ -111,6 +113,8 @@ bool is_known_path(const std::string& path, const std::string& pointer, std::vec
         {pointer,
          "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole "
          "linkages are cases"});
+  } else if (path == kKeepKey) {
+    faults.push_back({pointer, "is the same for all jobs of a sweep; it stands beside \"sweep\""});
   } else if (path == kWearKey) {
     faults.push_back({pointer, "worn bores are cases, each with its lists"});
   } else if (is_varied_by_cases(path)) {

@@ -168,6 +168,8 @@ class SweepParser {
     const json keep = request_.at(kKeepKey);
     if (std::string detail = describe_keep_fault(keep); !detail.empty())
       return fault(pointer_token(kKeepKey), std::move(detail));
+    if (sweep_.parameters.contains(kKeepKey) && sweep_.parameters.at(kKeepKey) != keep)
+      return fault(pointer_token(kKeepKey), "differs from /parameters/keep");
     sweep_.parameters[kKeepKey] = keep;
   }
 

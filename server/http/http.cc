@@ -38,6 +38,10 @@ const httplib::Headers kSecurityHeaders = {
     {"X-Content-Type-Options", "nosniff"},
 };
 
+/// Mark of an answer that has ranges, until the library has added its own headers. No answer has it in the
+/// end.
+constexpr const char* kHasRanges = "Has-Ranges";
+
 /// Sends a file piece by piece.
 void set_file(httplib::Response& to, const std::string& content_type, std::shared_ptr<FileBody> file) {
   static constexpr std::size_t kPiece = 64 * 1024;
@@ -87,6 +91,7 @@ void copy_to(httplib::Response& to, Response from, const std::string& version = 
     to.set_header("Content-Type", from.content_type);
   }
   for (const auto& [name, value] : from.headers) {
+    if (name == "Accept-Ranges") to.set_header(kHasRanges, value);
     if (kSecurityHeaders.contains(name))
       to.headers.erase(name);  // in the place of the one that every answer has
     to.set_header(name, value);
@@ -196,7 +201,8 @@ class HttpServer::Impl {
 
   /// The library says of every answer to HEAD that it has ranges.
   static void tidy_headers(const httplib::Request& request, httplib::Response& response) {
-    if (request.method == "HEAD") response.headers.erase("Accept-Ranges");
+    if (request.method == "HEAD" && !response.has_header(kHasRanges)) response.headers.erase("Accept-Ranges");
+    response.headers.erase(kHasRanges);
     if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
   }
 

@@ -108,7 +108,8 @@ class HttpClient::Impl {
   Answer erase(const std::string& path) { return take(client_.Delete(url_.prefix + path)); }
 
   void set_patience(std::chrono::milliseconds time) {
-    client_.set_connection_timeout(time);
+    client_.set_connection_timeout(
+        std::min<std::chrono::milliseconds>(time, std::chrono::seconds(kConnectSeconds)));
     client_.set_read_timeout(time);
   }
 

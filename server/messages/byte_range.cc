@@ -50,7 +50,9 @@ Response answer_with_file(const Request& request, Response response, std::shared
   const std::size_t size = file->size();
   response.headers.emplace_back("Accept-Ranges", "bytes");
   response.file = std::move(file);
-  if (response.status != 200 || (!request.if_range.empty() && request.if_range != etag)) return response;
+  if (response.status != 200 || request.method != "GET" ||
+      (!request.if_range.empty() && request.if_range != etag))
+    return response;
   const auto range = read_range(request.range, size);
   if (!range) return response;
   if (range->first == size) {

@@ -112,6 +112,10 @@ classdef rpsup
       if isunix(), system(['chmod 700 "' folder '"']); end
       config = fullfile(folder, 'curl');
       got = fullfile(folder, 'answer');
+      if ~isempty(file)
+        got = [file '.part'];  % where there is room for it
+        cleanup_part = onCleanup(@() remove_file(got));
+      end
       if ~isempty(body), write_text(fullfile(folder, 'body'), body); end
       lines = {['request = "' method '"'], ['url = "' self.url path query_of(options) '"'], ...
                ['output = "' slashed(got) '"'], 'silent', 'show-error', 'write-out = "%{http_code}"', ...
@@ -130,6 +134,7 @@ classdef rpsup
       command = ['curl --config "' config '" 2>&1'];
       if isunix(), command = ['LD_LIBRARY_PATH= ' command]; end  % MATLAB's libraries are not those of curl
       [code, said] = system(command);
+      if code == 23, error('rpsup:file', '%s cannot be written: %s', got, strtrim(said)); end
       if code ~= 0, error('rpsup:unreachable', 'no answer from %s: %s', self.url, strtrim(said)); end
       status = str2double(said(max(1, end - 2):end));
       if status >= 400 || isnan(status), refuse(status, read_text(got)); end
@@ -206,6 +211,10 @@ end
 
 function text = slashed(name)
   text = strrep(name, '\', '/');
+end
+
+function remove_file(file)
+  if exist(file, 'file') == 2, delete(file); end
 end
 
 function remove(folder)

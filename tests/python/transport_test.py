@@ -74,6 +74,24 @@ class SendsAgain(unittest.TestCase):
         with FakeServer(missing) as server, self.assertRaises(rpsup.Error):
             server.client().sweep("swp_1").delete()
 
+    def test_a_request_that_waited_long_before_its_connection_broke(self):
+        def late_and_nothing(_):
+            time.sleep(1.5)
+            return b""
+
+        with FakeServer(late_and_nothing, http(200, {"state": "running"})) as server:
+            status = server.client(patience_s=1.0).get("/v1/sweeps/swp_1")
+        self.assertEqual((status["state"], len(server.requests)), ("running", 2))
+
+    def test_lists_of_other_libraries_as_lists(self):
+        class Names:
+            def tolist(self):
+                return ["a", "b"]
+
+        with FakeServer(http(200, {})) as server:
+            server.client().get("/v1/jobs", {"channels": Names()})
+        self.assertIn("channels=a,b ", server.requests[0][0])
+
     def test_only_as_long_as_the_client_is_patient(self):
         with FakeServer(BUSY, BUSY) as server, self.assertRaises(rpsup.Error) as caught:
             server.client(patience_s=0.5).submit(clearance_mm=[0])

@@ -113,6 +113,31 @@ except ImportError:
 assert len(h5py.File("many.h5")["trajectories"]) == 600
 PY
 
+# A file that the disk does not take is no file, whatever the library says.
+stop_service TERM
+for format in h5 mat npz; do
+  for kilobytes in 4 40 400; do
+    code=0
+    (ulimit -f "$kilobytes"; exec "$rpsup" export "short.$format" --db all.db --trajectories "$sweep") >out 2>err || code=$?
+    expect_equal "$code" 3 "exit code of an export to $format that ends after $kilobytes kB"
+    expect_text err '^rpsup: .*short'
+    expect_equal "$(ls short.* 2>/dev/null | wc -l)" 0 "files of an export that failed"
+  done
+done
+expect_code 0 "$rpsup" export whole.h5 --db all.db --trajectories "$sweep" --channels slider_acceleration_m_s2,pose_1_3_1_x_m --from 0.2 --to 0.7
+cmp whole.h5 all.h5
+expect_code 2 "$rpsup" export whole.h5 --db all.db --trajectories "$sweep"
+expect_code 2 "$rpsup" export other.parquet --db all.db --trajectories "$sweep"
+expect_text err '[.]h5, [.]mat or [.]npz'
+expect_code 2 "$rpsup" export other.h5 --db all.db --trajectories swp_01m8ex00000000000000000000
+start_service all.db
+expect_code 0 "$rpsup" --url "$url" trajectory "$sweep" --channels slider_acceleration_m_s2,pose_1_3_1_x_m --from 0.2 --to 0.7 --output remote.h5
+cmp remote.h5 all.h5
+expect_code 2 "$rpsup" --url "$url" trajectory "$sweep" --channels nothing --output none.h5
+expect_text err '/channels/0'
+expect_equal "$(ls none.h5* 2>/dev/null | wc -l)" 0 "files of a trajectory that was refused"
+expect_code 3 "$rpsup" export busy.h5 --db all.db --trajectories "$sweep"
+
 # Killed while it makes a file.
 get -o killed.h5 "$url/v1/sweeps/$many/trajectories" 2>/dev/null &
 asking=$!

@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import zipfile
 from typing import Any, Dict, List, Mapping, Optional, Type, TypeVar, Union
 
 from .errors import BadAnswer
@@ -181,9 +182,14 @@ class Client:
         """Deletes what a path names."""
         self._transport.send("DELETE", path)
 
-    def download(self, path: str, file: Union[str, "os.PathLike[str]"], query: Query = None) -> str:
-        """Writes what a path gives into a file, block by block, and returns the file's name."""
-        self._transport.send("GET", path, query, file=os.fspath(file))
+    def download(self, path: str, file: Union[str, "os.PathLike[str]"], query: Query = None,
+                 timeout_s: Optional[float] = None) -> str:
+        """Writes what a path gives into a file, block by block, and returns the file's name.
+
+        Args:
+            timeout_s: longest time without a sign of life, [s]; that of the client if left out.
+        """
+        self._transport.send("GET", path, query, file=os.fspath(file), timeout_s=timeout_s)
         return os.fspath(file)
 
     def table(self, path: str, route: str, query: Query = None) -> DataFrame:
@@ -207,7 +213,7 @@ class Client:
             try:
                 with numpy.load(io.BytesIO(body), allow_pickle=False) as arrays:
                     columns = {name: arrays[name] for name in arrays.files}
-            except (ValueError, OSError) as error:
+            except (ValueError, OSError, EOFError, zipfile.BadZipFile) as error:
                 raise BadAnswer(f"the answer is no NPZ: {error}") from error
         if pandas is None:
             return columns

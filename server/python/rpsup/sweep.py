@@ -9,6 +9,7 @@ from .study import Job, Names, Number, Row, Study, Text
 from .table import DataFrame
 
 SUFFIXES = {"h5": "h5", "hdf5": "h5", "npz": "npz", "mat": "mat"}
+MAKING_S = 600.0  # until the first byte of a file of trajectories, which the service makes before it sends any
 
 
 class Sweep(Study):
@@ -50,7 +51,7 @@ class Sweep(Study):
         if format is None and ending not in SUFFIXES:
             raise ValueError(f"{path} must end with .h5, .npz or .mat, or format= must say which")
         query = {"format": format or SUFFIXES[ending], "channels": channels, "from": from_s, "to": to_s}
-        return self.client.download(f"{self.path}/trajectories", path, query)
+        return self.client.download(f"{self.path}/trajectories", path, query, MAKING_S)
 
     def report(self, path: str) -> str:
         """Writes the sweep as one HTML page, and returns its path."""

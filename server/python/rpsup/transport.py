@@ -77,12 +77,13 @@ class Transport:
 
     def send(self, method: str, path: str, query: Query = None, body: Body = None, *,
              headers: Optional[Mapping[str, str]] = None, content_type: str = "application/json",
-             again: Again = Again.SAFELY, file: Optional[str] = None) -> Answer:
+             again: Again = Again.SAFELY, file: Optional[str] = None,
+             timeout_s: Optional[float] = None) -> Answer:
         """Sends a request and returns the answer. `file` takes the body of the answer, block by block.
 
         Raises:
             Error: the service refused the request.
-            Unreachable: there was no answer within `patience_s`.
+            Unreachable: there was no answer within `patience_s` after the first failure.
         """
         data = body if body is None or isinstance(body, bytes) else _json_of(body)
         sent = {"User-Agent": f"rpsup-python/{VERSION}", "Accept": "*/*", **(headers or {})}
@@ -94,11 +95,12 @@ class Transport:
             sent["Idempotency-Key"] = str(uuid.uuid4())
         target = self._parts.path.rstrip("/") + quote(path) + _query_of(query)
 
-        start, wait_s, is_repeated = time.monotonic(), SHORTEST_WAIT_S, False
+        first_failure: Optional[float] = None
+        wait_s, is_repeated = SHORTEST_WAIT_S, False
         while True:
             refusal: Error
             try:
-                answer = self._send_once(method, target, data, sent, file)
+                answer = self._send_once(method, target, data, sent, file, timeout_s or self._timeout_s)
                 if answer.status < 300:
                     return answer
                 if method == "DELETE" and is_repeated and answer.status == 404:
@@ -114,14 +116,16 @@ class Transport:
                     raise refusal from lost
                 is_repeated = is_repeated or lost.reached
                 pause_s = wait_s * random.uniform(0.5, 1.0)  # clients return one by one
-            if time.monotonic() + pause_s - start > self._patience_s:
+            now = time.monotonic()
+            first_failure = first_failure or now
+            if now + pause_s - first_failure > self._patience_s:
                 raise refusal
             time.sleep(pause_s)
             wait_s = min(2 * wait_s, LONGEST_WAIT_S)
 
     def _send_once(self, method: str, target: str, data: Optional[bytes], headers: Mapping[str, str],
-                   file: Optional[str]) -> Answer:
-        connection = self._connection()
+                   file: Optional[str], timeout_s: float) -> Answer:
+        connection = self._connection(timeout_s)
         try:
             try:
                 connection.connect()
@@ -133,7 +137,7 @@ class Transport:
                 connection.request(method, target, data, dict(headers))
                 response = connection.getresponse()
             got = {name.lower(): value for name, value in response.getheaders()}
-            if not {"content-length", "transfer-encoding"} & set(got) and response.status != 204:
+            if not {"content-length", "transfer-encoding"} & set(got) and response.status not in (204, 304):
                 raise _Lost(EOFError("the head of the answer ended early"), reached=True)
             if file is not None and response.status < 300:
                 _write_blocks(response, file)
@@ -143,12 +147,14 @@ class Transport:
         finally:
             connection.close()
 
-    def _connection(self) -> http.client.HTTPConnection:
-        host, port = self._parts.hostname or "", self._parts.port
+    def _connection(self, timeout_s: float) -> http.client.HTTPConnection:
+        host = self._parts.hostname or ""
         if self._parts.scheme == "https":
             context = ssl.create_default_context()
-            return http.client.HTTPSConnection(host, port, timeout=self._timeout_s, context=context)
-        return http.client.HTTPConnection(host, port, timeout=self._timeout_s)
+            return http.client.HTTPSConnection(host, self._parts.port or http.client.HTTPS_PORT,
+                                               timeout=timeout_s, context=context)
+        return http.client.HTTPConnection(host, self._parts.port or http.client.HTTP_PORT,
+                                          timeout=timeout_s)
 
 
 @contextlib.contextmanager
@@ -197,6 +203,8 @@ def _query_of(query: Query) -> str:
     """Lists are joined by commas, truth values are those of JSON; what is None is left out."""
     pairs = []
     for key, value in (query or {}).items():
+        if hasattr(value, "tolist"):
+            value = value.tolist()
         if isinstance(value, (list, tuple)):
             pairs.append((key, ",".join(map(str, value))))
         elif value is not None:

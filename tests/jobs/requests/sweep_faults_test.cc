@@ -39,7 +39,7 @@ constexpr SweepFaultCase kSweepFaults[] = {
     {"unknown_key", R"({"swep": {}})", "/swep", "did you mean sweep?"},
     {"swapped_letters", R"({"swepe": {}})", "/swepe", "did you mean sweep?"},
     {"key_of_another_tool", R"({"axes": {}})", "/axes",
-     "unknown key; allowed: name, parameters, sweep, design, cases, replicates, reuse, priority, executor"},
+     "unknown key; allowed: name, parameters, sweep, design, cases, replicates, keep, reuse, priority, executor"},
     {"parameter_at_the_top", R"({"clearance_mm": 1})", "/clearance_mm", "under \"parameters\""},
     {"name_no_text", R"({"name": 1})", "/name", "string"},
     {"reuse_no_boolean", R"({"reuse": 1})", "/reuse", "true or false"},

@@ -86,13 +86,26 @@ TEST(GetTrajectories, HoldsTheWantedChannelsOfTheWantedTimes) {
   EXPECT_TRUE(has("trajectories/job_0002/pose_1_3_1_x_m.npy"));
 }
 
+TEST(GetTrajectories, HoldsEmptyColumnsOfATimeWithoutSamples) {
+  Bench bench;
+  const auto answer = fetch(bench, make_sweep(bench), {{"format", "npz"}, {"from", "100"}});
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  const std::string bytes = bytes_of(answer);
+  for (const auto& entry : jobs::read_zip_directory(bytes, 1'000'000))
+    EXPECT_NO_THROW(static_cast<void>(jobs::unpack(entry))) << entry.name << ": its checksum";
+  EXPECT_EQ(fetch(bench, make_sweep(bench), {{"format", "h5"}, {"from", "100"}}).status, 200);
+  EXPECT_EQ(fetch(bench, make_sweep(bench), {{"format", "mat"}, {"from", "100"}}).status, 200);
+}
+
 TEST(GetTrajectories, GivesTheRestOfAFile) {
   Bench bench;
   const std::string id = make_sweep(bench);
-  const auto all = fetch(bench, id, {});
-  const std::string bytes = bytes_of(all);
+  const auto [bytes, etag] = [&] {
+    const auto all = fetch(bench, id, {});
+    return std::pair(bytes_of(all), header(all, "ETag"));
+  }();
   const std::string size = std::to_string(bytes.size());
-  const auto rest = fetch(bench, id, {}, "bytes=100-", header(all, "ETag"));
+  const auto rest = fetch(bench, id, {}, "bytes=100-", etag);
   EXPECT_EQ(rest.status, 206);
   EXPECT_EQ(bytes_of(rest), bytes.substr(100));
   EXPECT_EQ(header(rest, "Content-Range"), "bytes 100-" + std::to_string(bytes.size() - 1) + "/" + size);
@@ -103,6 +116,9 @@ TEST(GetTrajectories, GivesTheRestOfAFile) {
   EXPECT_EQ(beyond.status, 416);
   EXPECT_EQ(header(beyond, "Content-Range"), "bytes */" + size);
   EXPECT_EQ(fetch(bench, id, {}, "bytes=100-", "\"other\"").status, 200) << "the bytes have changed";
+  server::Request head{"HEAD", "/v1/sweeps/" + id + "/trajectories", {}, "", "", "test-1"};
+  head.range = "bytes=100-";
+  EXPECT_EQ(bench.call(head).status, 200) << "ranges are for GET";
   for (const char* const unknown :
        {"bytes=1-2,4-5", "lines=1-2", "bytes=5-3", "bytes=a-", "bytes=-", "bytes="})
     EXPECT_EQ(fetch(bench, id, {}, unknown).status, 200) << unknown;
@@ -153,6 +169,8 @@ TEST(KeepMetrics, IsRefusedWhereTrajectoriesAreRead) {
     return json::parse(refused.body).at("errors")[0].at("pointer").get<std::string>();
   };
   EXPECT_EQ(pointer_of("/v1/sweeps", R"({"keep": "nothing"})"), "/keep");
+  EXPECT_EQ(pointer_of("/v1/sweeps", R"({"keep": "all", "parameters": {"keep": "metrics"}})"), "/keep");
+  EXPECT_EQ(pointer_of("/v1/sweeps", R"({"sweep": {"keep": ["all", "metrics"]}})"), "/sweep/keep");
   EXPECT_EQ(pointer_of("/v1/jobs", R"({"keep": 1})"), "/keep");
   EXPECT_EQ(pointer_of("/v1/wear-studies",
                        R"({"parameters": {"keep": "metrics", "clearance_mm": 0.1}, "hours": 10,
