@@ -12,7 +12,7 @@ diff shown <(sed '$d' expected) || fail "$2 shows other tables: run jq as the he
 # And so is what --help prints.
 "$rpsup" simulate --help >help
 get "$url/v1/parameters" | jq -r '.properties | (del(.links) | keys[]), (.links.properties | to_entries[] | "links.\(.key).\(.value.properties | keys[])")' >keys
-expect_equal "$(grep -c . keys)" 88 "parameters"
+expect_equal "$(grep -c . keys)" 89 "parameters"
 while read -r key; do
   grep -qE "^  ${key//./\\.} " help || fail "simulate --help does not name $key"
 done <keys
