@@ -68,6 +68,7 @@ Json make_problem_answer(int status) {
               {"content", {{"application/problem+json", {{"schema", ref("Problem")}}}}}};
   add_header_to(answer, "X-Request-Id");
   if (status == 429 || status == 503) add_header_to(answer, "Retry-After");
+  if (status == 416) add_header_to(answer, "Content-Range");
   return answer;
 }
 
