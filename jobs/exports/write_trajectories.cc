@@ -52,7 +52,7 @@ bool is_wanted(const TrajectoryQuery& query, const std::string& channel) {
 }
 
 /// Number of samples between the times of a query.
-std::size_t count_samples(const StoredBytes& blob, const TrajectoryQuery& query) {
+std::size_t samples_between(const StoredBytes& blob, const TrajectoryQuery& query) {
   TrajectoryView times(blob, {.channels = {"t_s"}, .from = query.from, .to = query.to});
   times.load(blob);
   return times.samples();
@@ -66,7 +66,7 @@ void add_job(const StoredBytes& blob, const TrajectoryExport& wanted, SweepConte
                         contents.channels.end();
     if (is_new) contents.channels.push_back(std::move(channel));
   }
-  const double bytes = static_cast<double>(sizeof(double) * count_samples(blob, wanted.query) * channels);
+  const double bytes = static_cast<double>(sizeof(double) * samples_between(blob, wanted.query) * channels);
   if (wanted.format == TrajectoryFileFormat::kMat && bytes >= kMostMatBytes)
     throw InvalidRequest(std::vector<Fault>{
         {"/format",

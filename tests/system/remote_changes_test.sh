@@ -58,8 +58,14 @@ expect_code 2 "$rpsup" trajectory "$job" --output run.ndjson
 expect_text err '^rpsup: --output run.ndjson: the name of a trajectory must end in \.json, \.csv or \.npz$'
 expect_code 2 "$rpsup" trajectory "$job" --channels nothing
 expect_text err 'nothing'
-expect_code 2 "$rpsup" trajectory "$id"
-expect_text err "^rpsup: trajectory $id: is no id of a job or measurement$"
+expect_code 0 "$rpsup" trajectory "$id" --output all.npz
+cmp all.npz <(get "$url/v1/sweeps/$id/trajectories?format=npz")
+expect_code 2 "$rpsup" trajectory "$id" --output all.csv
+expect_text err '^rpsup: --output all.csv: the name of a file of trajectories must end in \.h5, \.mat or \.npz$'
+expect_code 2 "$rpsup" trajectory "$id" --points 20 --output all.h5
+expect_text err 'for a job or a measurement'
+expect_code 2 "$rpsup" trajectory "${id/swp_/sch_}"
+expect_text err "^rpsup: trajectory ${id/swp_/sch_}: is no id of a job, sweep or measurement$"
 printf 'time_s,acc\n0,1\n0.1,2\n' >bench.csv
 measured=$("$rpsup" measure bench.csv --channel acc=slider_acceleration_m_s2)
 expect_code 0 "$rpsup" trajectory "$measured"

@@ -9,7 +9,7 @@ from .study import Job, Names, Number, Row, Study, Text
 from .table import DataFrame
 
 SUFFIXES = {"h5": "h5", "hdf5": "h5", "npz": "npz", "mat": "mat"}
-MAKING_S = 600.0  # until the first byte of a file of trajectories, which the service makes before it sends any
+MAKING_S = 600.0  # until the first byte of a file of trajectories: the service makes it first
 
 
 class Sweep(Study):
