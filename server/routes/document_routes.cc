@@ -28,9 +28,9 @@ Response get_docs(const RequestContext& context) {
       context.request, context.request.path == "/docs" ? "/docs/index.html" : context.request.path);
   // The style sheet of the page holds its arrows and ticks itself.
   response.headers.emplace_back("Content-Security-Policy",
-                                "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
-                                "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors "
-                                "'none'");
+                                "default-src 'none'; script-src 'self'; style-src 'self'; connect-src "
+                                "'self'; img-src 'self' data:; base-uri 'none'; form-action 'none'; "
+                                "frame-ancestors 'none'");
   return response;
 }
 
