@@ -259,7 +259,7 @@ int print_man_page(const CLI::App& app) {
   return kDone;
 }
 
-/// Says which option a command does not have. False if something else was not expected.
+/// Message on an option that a command does not have. False if something else was not expected.
 bool tell_unknown_option(const CLI::App& app) {
   for (const std::string& word : app.remaining(true)) {
     if (!word.starts_with("--")) continue;

@@ -41,7 +41,7 @@ void add_limits_to(std::ostream& out, const json& search) {
   }
 }
 
-/// How far the bearing has worn.
+/// Wear that the bearing has reached.
 void add_wear_to(std::ostream& out, const json& study) {
   if (study.at("cycles").empty()) return;
   const json& last = study.at("cycles").back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lists have in common: their order, and items that are marked to be deleted together.
+// Order of lists, and items that are marked to be deleted together.
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 

@@ -36,7 +36,7 @@ const entryUnits = { "rad/s": [["rpm", turn / 60], ["°/s", turn / 360]], rad: [
 /** @param {{ unit: string }} field  @returns {string[]} */
 export const unitsOf = ({ unit }) => [unit, ...(entryUnits[unit] ?? []).map(([name]) => name)];
 
-/// What a number in some unit is multiplied with to be in the unit of the field.
+/// Factor from a unit of entry to the unit of the field.
 /** @param {{ unit: string }} field  @param {string} [unit]  @returns {number} */
 export const factorOf = (field, unit) => (entryUnits[field.unit] ?? []).find(([name]) => name === unit)?.[1]
   ?? 1;

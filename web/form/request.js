@@ -3,7 +3,7 @@
 import { faultOf, isInside, writtenAsJson } from "/form/fields.js";
 import { factorOf, readList, readNumber } from "/form/numbers.js";
 
-/// What stands in a field at first. The unit is that of entry, empty for the field's own.
+/// Entry of a field at first. The unit is that of entry, empty for the unit of the field.
 export const emptyEntry = () =>
   ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [], unit: "" });
 

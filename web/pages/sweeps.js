@@ -29,7 +29,7 @@ const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whos
 
 /** @typedef {Api.Listed<"/v1/sweeps">} Listing */
 
-/// What sweeps can be ordered by, with its heading.
+/// Keys by which sweeps can be ordered, with their headings.
 /** @type {Record<string, [string, (sweep: Listing) => string | number]>} */
 const orders = { name: ["Name", (sweep) => sweep.name || sweep.id], state: ["State", (sweep) => sweep.state],
   jobs: ["Jobs", (sweep) => sweep.counts.total], created: ["Created", (sweep) => sweep.created_at] };
