@@ -108,7 +108,7 @@ TEST(Docs, ServeThePageWithAllItsParts) {
     EXPECT_GT(response.body.size(), 100U) << (*found)[2];
   }
   EXPECT_EQ(parts, 4U);
-  EXPECT_NE(header(page, "Content-Security-Policy").find("img-src 'self' data:"), std::string::npos);
+  EXPECT_NE(server_tests::header(page, "Content-Security-Policy").find("img-src 'self' data:"), std::string::npos);
   EXPECT_EQ(page.body.find("//"), std::string::npos) << "of another site";
   for (const char* const forbidden : {"style=", "onclick", "<script>"})
     EXPECT_EQ(page.body.find(forbidden), std::string::npos);
