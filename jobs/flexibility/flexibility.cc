@@ -41,7 +41,9 @@ struct Pair {
 Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coupler, std::size_t metric) {
   Pair pair{.rigid = calc_replicate_statistics(values_of(results, group, coupler, "rigid", metric)),
             .flexible = calc_replicate_statistics(values_of(results, group, coupler, "flexible", metric)),
-            .ratio = {}, .least = {}, .largest = {}};
+            .ratio = {},
+            .least = {},
+            .largest = {}};
   // Ratios of signs say nothing
   const bool comparable = pair.rigid.count > 0 && pair.flexible.count > 0 && *pair.rigid.min > 0.0;
   if (!comparable) return pair;
@@ -51,12 +53,21 @@ Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coup
   return pair;
 }
 
-/// On which side of 1 a ratio is: -1, 1, or 0 if it makes no difference.
-int side_of(double ratio) { return ratio < 1.0 - kSame ? -1 : ratio > 1.0 + kSame ? 1 : 0; }
+/// Whether the scatter of a pair is known.
+bool has_replicates(const Pair& pair) { return pair.rigid.count > 1 && pair.flexible.count > 1; }
+
+/// On which side of 1 every ratio of a pair is: -1, 1, or 0 if they make no difference, are on both sides, or
+/// their scatter is not known.
+int side_of(const Pair& pair) {
+  if (!pair.ratio || !has_replicates(pair)) return 0;
+  return *pair.largest < 1.0 - kSame ? -1 : *pair.least > 1.0 + kSame ? 1 : 0;
+}
 
 json verdict_of(const Pair& pair) {
   if (!pair.ratio) return nullptr;
-  return side_of(*pair.largest) < 0 ? "helps" : side_of(*pair.least) > 0 ? "harms" : "either";
+  if (!has_replicates(pair)) return "one_run_each";
+  const int side = side_of(pair);
+  return side < 0 ? "helps" : side > 0 ? "harms" : "either";
 }
 
 /// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible
@@ -76,8 +87,8 @@ std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup
   return {*taken, all > 0.0 ? json(*taken / all) : json()};
 }
 
-/// For each group the last value before it along a column at which the ratio made a difference, if it was on
-/// the other side of 1 there.
+/// For each group the last value before it along a column at which every ratio was on one side of 1, if all
+/// are on the other side here.
 std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs,
                                  std::optional<std::size_t> along) {
   std::vector<json> reversals(groups.size());
@@ -94,7 +105,7 @@ std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std:
     int last_side = 0;
     double last_x = 0.0;
     for (const auto& [x, group] : line) {
-      const int side = side_of(*pairs[group].ratio);
+      const int side = side_of(pairs[group]);
       if (side == 0) continue;
       if (side == -last_side) reversals[group] = last_x;
       last_side = side;

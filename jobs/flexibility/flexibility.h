@@ -15,10 +15,10 @@ namespace jobs {
 /// `ratio` is the flexible mean of the metric over the rigid one; with replicates it lies between
 /// `ratio_least` (the least flexible value over the largest rigid one) and `ratio_largest`. `verdict` is
 /// "helps" if even the largest is below 0.999, "harms" if even the least is above 1.001, else "either": peaks
-/// are no better than that. `reverses_from` is the last value of `along`, the first number that is swept,
-/// before this one whose ratio differs from 1 by more than 0.001, if that was on the other side of 1, all
-/// else equal. `coupler_loss_j` is the energy that the coupler's dampers take, `coupler_loss_part` its part
-/// of all losses.
+/// are no better than that. Without replicates of both it is "one_run_each": nobody knows their scatter.
+/// `reverses_from` is the last value of `along`, the first number that is swept, before this one with a
+/// verdict "helps" or "harms", if that was the other one, all else equal. `coupler_loss_j` is the energy that
+/// the coupler's dampers take, `coupler_loss_part` its part of all losses.
 /// @throws InvalidRequest ("/metric"); WrongState if the sweep does not vary the coupler
 [[nodiscard]] ResultTable compare_couplers(const nlohmann::json& sweep, const ResultTable& results,
                                            const std::string& metric);

@@ -40,6 +40,7 @@ struct Judged {
   double x = 0.0;
   bool within = false;
   double least = 0.0, most = 0.0;  ///< of the replicates
+  std::size_t count = 0;           ///< of the replicates
 };
 
 Judged judge(const Evaluation& evaluation, const LimitRule& rule) {
@@ -47,7 +48,8 @@ Judged judge(const Evaluation& evaluation, const LimitRule& rule) {
   return {.x = evaluation.x,
           .within = calc_quantile(evaluation.values, rule.quantile) <= rule.bound,
           .least = least,
-          .most = most};
+          .most = most,
+          .count = evaluation.values.size()};
 }
 
 /// Lost evaluation that decides the bracket: the first one up to the first value beyond the bound. Null:
@@ -60,7 +62,9 @@ const Evaluation* find_lost(const std::vector<Evaluation>& evaluations, const Li
   return nullptr;
 }
 
+/// One run of each value says nothing of the scatter: there is no band then.
 void set_bands(const std::vector<Judged>& judged, const LimitRule& rule, Limit& limit) {
+  if (std::ranges::none_of(judged, [](const Judged& at) { return at.count > 1; })) return;
   for (const Judged& at : judged) {
     if (at.most > rule.bound) break;
     limit.band_from = at.x;

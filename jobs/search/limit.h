@@ -55,6 +55,7 @@ struct Limit {
   Verdict verdict = Verdict::kOpen;
   std::optional<double> within;   ///< the last value before the metric first exceeds its bound
   std::optional<double> beyond;   ///< the first value at which it does
+  // Empty where each value has been run once
   std::optional<double> band_from;  ///< up to here every replicate stays within the bound
   std::optional<double> band_to;    ///< from here on none does
   std::optional<std::string> lost_reason{};  ///< of kLost: that of the evaluation in the way

@@ -174,7 +174,11 @@ TEST(FindLimit, TakesTheFirstCrossingAndTellsWhereTheMetricFalls) {
   EXPECT_EQ(found.limit.falls[0].from, 3.0);
   EXPECT_EQ(found.limit.falls[0].to, 4.0);
   EXPECT_TRUE(found.limit.falls[0].within_again);
-  EXPECT_NEAR(found.limit.band_to.value(), 8.0, 1e-12)
+  EXPECT_FALSE(found.limit.band_from || found.limit.band_to) << "one run each has no band";
+  const auto twice = [&](double x) { return std::vector{wave(x).front(), wave(x).front()}; };
+  EXPECT_NEAR(search({.from = 0.0, .to = 10.0, .tolerance = 0.05, .first = 11}, {.bound = 0.5}, twice)
+                  .limit.band_to.value(),
+              8.0, 1e-12)
       << "from there on nothing that was tried is within the bound";
 }
 
