@@ -240,4 +240,14 @@ BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
   return built;
 }
 
+int count_undriven_freedoms(const Linkage& linkage) {
+  const BuiltLinkage built = check_linkage(linkage);
+  LoopClosure closure(built.mechanism);
+  Evaluation assembled = MotionSystem(built.mechanism).make_evaluation();
+  require(closure.assemble(0.0, assembled), "joints", "closed at t = 0");
+  const auto coordinates =
+      std::ranges::count(built.mechanism.coordinates, CoordinateRole::kJoint, &Coordinate::role);
+  return static_cast<int>(coordinates - closure.rank()) - static_cast<int>(built.mechanism.drives.size());
+}
+
 }  // namespace engine

@@ -25,6 +25,11 @@ struct LinkageTables {
 /// a loop or a freedom, "joints" for several of them together, "springs.NAME".
 BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator = Integrator::kAuto);
 
+/// Freedoms that neither drives nor joints take from a linkage in its assembled position. Those within
+/// clearances and beams count too.
+/// @throws InvalidInput as check_linkage does.
+[[nodiscard]] int count_undriven_freedoms(const Linkage& linkage);
+
 /// Simulates a described linkage from its assembled position.
 /// The same linkage gives the same bytes, whatever else the process does.
 /// @param options  all above 0

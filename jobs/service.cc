@@ -15,10 +15,13 @@
 #include "jobs/local/local_pool.h"
 #include "jobs/requests/expand.h"
 #include "jobs/requests/extend_request.h"
+#include "jobs/requests/sweep_description.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/results/page.h"
+#include "jobs/results/plan_estimate.h"
 #include "jobs/optimisation/optimisation_study.h"
 #include "jobs/search/limit_study.h"
+#include "jobs/store/check_quota.h"
 #include "jobs/store/store.h"
 #include "jobs/studies/study_runner.h"
 #include "jobs/trajectories/trajectory_codec.h"
@@ -118,6 +121,17 @@ json Service::submit_sweep(const nlohmann::ordered_json& request, const std::str
   });
 }
 
+json Service::estimate_sweep(const nlohmann::ordered_json& request) const {
+  const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
+  if (!plan.executor.empty()) check_executor(plan.executor);
+  SweepRow row;
+  row.executor = plan.executor;
+  json estimate = plan_estimate_json(plan, store_->reader.find_costs(plan), slots_for(row));
+  estimate["max_jobs"] = options_.max_sweep_jobs;
+  estimate["free_bytes"] = find_bytes_left(options_.store);
+  return estimate;
+}
+
 json Service::submit_job(const json& parameters, const std::string& key) {
   const std::string fingerprint = "POST /v1/jobs " + sha256_hex(parameters.dump());
   return answer_once(key, fingerprint, [&](const IdempotentRequest& idempotency) {
@@ -184,6 +198,12 @@ std::optional<json> Service::move_sweep(const std::string& id, const json& reque
   if (!store_->queue.move_sweep(id, executor)) return std::nullopt;
   wake();
   tell_change();
+  return find_sweep(id);
+}
+
+std::optional<json> Service::describe_sweep(const std::string& id, const json& request) {
+  check_open();
+  if (!store_->queue.describe_sweep(id, parse_sweep_description(request))) return std::nullopt;
   return find_sweep(id);
 }
 

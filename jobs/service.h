@@ -106,6 +106,9 @@ class Service {
   ///     and nothing new is stored. Another request under it is an InvalidRequest, one that comes while the
   ///     first is answered a WrongState. Empty: none
   nlohmann::json submit_sweep(const nlohmann::ordered_json& request, const std::string& key = {});
+  /// Cost of a sweep that is not submitted: plan_estimate_json(), with "max_jobs" and "free_bytes".
+  /// @throws InvalidRequest with every fault that submit_sweep() finds
+  [[nodiscard]] nlohmann::json estimate_sweep(const nlohmann::ordered_json& request) const;
   nlohmann::json submit_job(const nlohmann::json& parameters, const std::string& key = {});
 
   /// Adds values to the axes of a sweep, and cases to its cases; only what is new is computed. See
@@ -116,6 +119,8 @@ class Service {
   /// Gives the queued jobs of a sweep to another executor; what is being computed stays where it is.
   /// @param request  {"executor": name}
   std::optional<nlohmann::json> move_sweep(const std::string& id, const nlohmann::json& request);
+  /// Changes what people have written on a sweep. See parse_sweep_description().
+  std::optional<nlohmann::json> describe_sweep(const std::string& id, const nlohmann::json& request);
 
   [[nodiscard]] std::optional<nlohmann::json> find_sweep(const std::string& id) const;
   [[nodiscard]] std::optional<nlohmann::json> find_job(const std::string& id) const;

@@ -63,6 +63,10 @@ class LoopClosure {
   [[nodiscard]] bool drives_can_start(const Evaluation& assembled);
   /// After assemble(): number of redundant constraint rows. Joints with clearance have no rows.
   [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
+  /// After assemble(): number of independent constraint rows, those of joints with clearance left out.
+  [[nodiscard]] Eigen::Index rank() const {
+    return static_cast<Eigen::Index>(rigid_rows_.size()) - redundant_;
+  }
 
   /// Predictor for solve(): extrapolates the unknown coordinates of two instants to time t, by the quintic
   /// through their positions, velocities and accelerations. `at` may be one of the two instants. If `before`

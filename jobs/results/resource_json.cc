@@ -194,7 +194,8 @@ json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& 
 
 json sweep_json(const SweepRow& row, int threads, Detail detail, std::string_view default_executor) {
   const std::string self = "/v1/sweeps/" + row.id;
-  json sweep{{"id", row.id}, {"name", row.name}, {"state", sweep_state(row.counts)},
+  json sweep{{"id", row.id}, {"name", row.name}, {"notes", row.notes}, {"tags", stored_json(row.tags)},
+             {"state", sweep_state(row.counts)},
              {"counts", counts_json(row.counts)},
              {"progress", progress(row.counts)}, {"priority", row.priority}, {"executor", row.executor},
              {"created_at", time_text(row.created_ms)}, {"started_at", time_or_null(row.started_ms)},

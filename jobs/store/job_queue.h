@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/requests/expand.h"
+#include "jobs/requests/sweep_description.h"
 #include "jobs/runs/executor.h"
 #include "jobs/runs/run_record.h"
 #include "jobs/store/idempotency_record.h"
@@ -60,6 +61,8 @@ class JobQueue {
   /// Gives the queued jobs of a sweep to another executor, also those that wait in a cluster's queue. False
   /// if there is no such sweep. @throws WrongState if the sweep has ended
   bool move_sweep(const std::string& id, const std::string& executor);
+  /// Changes what people have written on a sweep. False if there is no such sweep.
+  bool describe_sweep(const std::string& id, const SweepDescription& changes);
 
   /// Claims a job: of the sweeps of the highest priority the one that was served least recently, of that
   /// sweep the first job whose content nobody is computing.

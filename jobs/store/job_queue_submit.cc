@@ -50,6 +50,22 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
   });
 }
 
+bool JobQueue::describe_sweep(const std::string& id, const SweepDescription& changes) {
+  return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    SQLite::Statement change(
+        database,
+        "UPDATE sweeps SET name = coalesce(?, name), notes = coalesce(?, notes), tags = coalesce(?, tags) "
+        "WHERE id = ?");
+    if (changes.name) change.bind(1, *changes.name);
+    if (changes.notes) change.bind(2, *changes.notes);
+    if (changes.tags) change.bind(3, nlohmann::json(*changes.tags).dump());
+    change.bind(4, id);
+    if (change.exec() == 0) return false;
+    core_.check_quota(database);
+    return true;
+  });
+}
+
 std::string JobQueue::add_job(const PlannedJob& job, std::size_t max_queued,
                               const IdempotencyRecord<JobRow>& idempotency) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {

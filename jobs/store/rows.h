@@ -61,6 +61,8 @@ struct RivalSweep {
 struct SweepRow {
   std::string id, name;
   std::string request;                               ///< empty in listings and changes
+  std::string notes;
+  std::string tags = "[]";                           ///< JSON list of texts
   std::string swept;
   bool replicated = false;
   std::int64_t priority = 0;

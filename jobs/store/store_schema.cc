@@ -16,7 +16,7 @@ namespace {
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
 /// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
-constexpr std::array<const char*, 5> kMigrations{R"sql(
+constexpr std::array<const char*, 6> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,
     id TEXT NOT NULL UNIQUE,
@@ -150,6 +150,11 @@ constexpr std::array<const char*, 5> kMigrations{R"sql(
     bytes INTEGER NOT NULL,
     data BLOB NOT NULL
   ) STRICT;
+)sql",
+                                                 R"sql(
+  -- Of people, for people: a text, and a JSON list of words.
+  ALTER TABLE sweeps ADD COLUMN notes TEXT NOT NULL DEFAULT '';
+  ALTER TABLE sweeps ADD COLUMN tags TEXT NOT NULL DEFAULT '[]';
 )sql"};
 constexpr int kNewestVersion = static_cast<int>(kMigrations.size());
 

@@ -45,7 +45,7 @@ void read_counts(const SQLite::Database& database, std::int64_t sweep, SweepRow&
 std::string sweep_columns(const std::string& request) {
   return "SELECT seq, id, name, " + request +
          ", swept, replicated, priority, created_ms, coalesce(executor, ''), "
-         "(SELECT c.id FROM searches c WHERE c.sweep = sweeps.seq) FROM sweeps";
+         "(SELECT c.id FROM searches c WHERE c.sweep = sweeps.seq), notes, tags FROM sweeps";
 }
 
 SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found, ActiveSweeps& active) {
@@ -60,6 +60,8 @@ SweepRow sweep_row(const SQLite::Database& database, SQLite::Statement& found, A
   row.created_ms = found.getColumn(7).getInt64();
   row.executor = found.getColumn(8).getString();
   row.study_id = optional_text(found.getColumn(9));
+  row.notes = found.getColumn(10).getString();
+  row.tags = found.getColumn(11).getString();
   read_counts(database, seq, row);
   if (!has_ended(row.counts)) active.read_what_is_left(seq, row);
   return row;
@@ -175,6 +177,11 @@ std::optional<JobRow> read_job(const SQLite::Database& database, const std::stri
 std::optional<SweepRow> SweepReader::find_sweep(const std::string& id) const {
   return core_.readers.read(
       [&](const SQLite::Database& database) { return read_sweep(database, id, core_.active); });
+}
+
+PlanCosts SweepReader::find_costs(const SweepPlan& plan) const {
+  return core_.readers.read(
+      [&](const SQLite::Database& database) { return read_plan_costs(database, plan); });
 }
 
 std::optional<bool> SweepReader::has_sweep_ended(const std::string& id) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "jobs/store/idempotency_record.h"
+#include "jobs/store/plan_costs.h"
 #include "jobs/store/queue_stats.h"
 #include "jobs/store/rows.h"
 #include "jobs/store/store_core.h"
@@ -22,6 +23,7 @@ class SweepReader {
   explicit SweepReader(StoreCore& core) : core_(core) {}
 
   [[nodiscard]] std::optional<SweepRow> find_sweep(const std::string& id) const;
+  [[nodiscard]] PlanCosts find_costs(const SweepPlan& plan) const;
   /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for
   /// sweeps of any size.
   [[nodiscard]] std::optional<bool> has_sweep_ended(const std::string& id) const;

@@ -37,7 +37,7 @@ const char* kind_of(const jobs::JobSpec& spec) {
 
 /// A method that no route knows is a text of the client's: not one more series for each.
 std::string known_method(const std::string& method) {
-  for (const char* const known : {"GET", "HEAD", "POST", "DELETE", "OPTIONS"}) {
+  for (const char* const known : {"GET", "HEAD", "POST", "PATCH", "DELETE", "OPTIONS"}) {
     if (method == known) return method;
   }
   return "other";

@@ -16,6 +16,12 @@ struct AnswerForm {
   std::string schema;
 };
 
+/// Answer with a status of its own.
+struct OtherAnswer {
+  int status = 200;
+  AnswerForm form;
+};
+
 /// One route: method and pattern, handler, and entry of the OpenAPI document, which has no other source of
 /// routes.
 struct Route {
@@ -31,6 +37,7 @@ struct Route {
   std::vector<AnswerForm> other_bodies = {};   ///< other forms of the body
   int success = 200;
   std::vector<AnswerForm> answers = {};        ///< forms of the answer to success; empty: without a body
+  std::vector<OtherAnswer> other_answers = {};  ///< to success, too
   std::vector<int> bodiless = {};  ///< statuses of other answers without a body that are no problems
   bool partial = false;  ///< whether 206 answers a Range, with the same forms
   std::vector<int> problems = {};              ///< statuses beside those of any request

@@ -165,8 +165,10 @@ class HttpServer::Impl {
     });
     // The library's reader is named and not used: the library would refuse forms above 8 KiB, which is what
     // `curl -d` sends, and trailers, and would take gzip without its checksum.
-    guard.Post(R"([\s\S]*)", [this](const httplib::Request& request, httplib::Response& response,
-                                    const httplib::ContentReader&) { route_with_body(request, response); });
+    const auto with_body = [this](const httplib::Request& request, httplib::Response& response,
+                                  const httplib::ContentReader&) { route_with_body(request, response); };
+    guard.Post(R"([\s\S]*)", with_body);
+    guard.Patch(R"([\s\S]*)", with_body);
     guard.set_error_handler(
         [](const httplib::Request&, httplib::Response& response) { complete_error(response); });
     guard.set_exception_handler(
@@ -226,7 +228,7 @@ class HttpServer::Impl {
 
   static void answer_preflight(const httplib::Request& request, httplib::Response& response) {
     response.status = 204;
-    response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
+    response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, PATCH, DELETE");
     response.set_header("Access-Control-Allow-Headers",
                         "Authorization, Content-Type, Idempotency-Key, If-None-Match, If-Range, "
                         "Last-Event-ID, Prefer, Range");
@@ -260,7 +262,7 @@ class HttpServer::Impl {
       copy_to(response, make_access_problem());
       return Handled::Handled;
     }
-    if (request.method == "POST") return Handled::Unhandled;
+    if (request.method == "POST" || request.method == "PATCH") return Handled::Unhandled;
     answer(request, {}, response);
     return Handled::Handled;
   }

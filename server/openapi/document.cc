@@ -24,7 +24,7 @@ constexpr std::array kProblemsOfAll{400, 401, 403, 408, 413, 414, 431, 500, 501,
 std::set<int> problems_of(const Route& route) {
   std::set<int> problems(kProblemsOfAll.begin(), kProblemsOfAll.end());
   problems.insert(route.problems.begin(), route.problems.end());
-  if (route.method == "POST") problems.insert(415);
+  if (!route.body.empty() || route.method == "POST") problems.insert(415);
   if (route.method != "GET") problems.insert(507);
   return problems;
 }
@@ -115,6 +115,11 @@ Json make_operation(const Route& route) {
       operation["requestBody"]["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);
   }
   operation["responses"][std::to_string(route.success)] = make_success(route, route.success);
+  for (const OtherAnswer& other : route.other_answers) {
+    Json answer = make_answer(route, other.status);
+    answer["content"][std::string(other.form.media_type)]["schema"] = openapi::ref(other.form.schema);
+    operation["responses"][std::to_string(other.status)] = std::move(answer);
+  }
   if (route.partial) operation["responses"]["206"] = make_success(route, 206);
   for (const int status : route.bodiless)
     operation["responses"][std::to_string(status)] = make_answer(route, status);

@@ -8,6 +8,7 @@
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameter_schema.h"
 #include "jobs/requests/sampled_designs.h"
+#include "jobs/requests/sweep_description.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/base/executor_names.h"
 #include "jobs/search/search_request.h"
@@ -150,6 +151,17 @@ Json make_executor() {
 
 Json make_move() { return object_of({{"executor", make_executor()}}); }
 
+Json make_sweep_description() {
+  Json tags = list_of({{"type", "string"}, {"minLength", 1}, {"maxLength", jobs::kLongestTag}});
+  tags["maxItems"] = jobs::kMostTags;
+  Json changes = options_of({{"name", {{"type", "string"}, {"maxLength", jobs::kLongestName}}},
+                             {"notes", {{"type", "string"}, {"maxLength", jobs::kLongestNotes}}},
+                             {"tags", std::move(tags)}});
+  changes["minProperties"] = 1;
+  changes["examples"] = Json::array({{{"notes", "bearing B, dry"}, {"tags", {"rig 2", "dry"}}}});
+  return changes;
+}
+
 Json make_extension() {
   Json extension = options_of({{"sweep", ref("Axes")}, {"cases", make_cases()}});
   extension["minProperties"] = 1;
@@ -255,6 +267,8 @@ Json make_request_schemas() {
           {"SweepRequest", make_sweep_request()},
           {"Extension", make_extension()},
           {"Move", make_move()},
+          {"SweepDescription", make_sweep_description()},
+          {"AssemblyRequest", object_of({{"parameters", ref("Parameters")}})},
           {"Axes", make_lists("Span")},
           {"Lists", make_lists("")},
           {"Span", make_span()},

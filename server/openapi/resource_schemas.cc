@@ -103,6 +103,8 @@ Json make_sweep(Detail detail) {
   Json properties{
       {"id", ref("Id")},
       {"name", kText},
+      {"notes", described(kText, "what people have written on it")},
+      {"tags", list_of(kText)},
       {"state", ref("State")},
       {"counts", make_counts()},
       {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
@@ -126,6 +128,29 @@ Json make_sweep(Detail detail) {
                            {"study", or_null(kText)}})}};
   if (detail == Detail::kFull) properties["request"] = ref("SweepRequest");
   return detail == Detail::kFull ? object_of(std::move(properties)) : options_of(std::move(properties));
+}
+
+Json make_sweep_estimate() {
+  return object_of(
+      {{"jobs", kCount},
+       {"stored_jobs", described(kCount, "jobs whose results are in the store, or equal to another one's")},
+       {"new_jobs", described(kCount, "jobs to compute")},
+       {"seconds", described(or_null(kNumber), "wall time on all slots of the executor; null: not known")},
+       {"bytes", described(or_null(kNumber), "size in the store; null: not known")},
+       {"measured_jobs", described(kCount, "jobs in the store that both are estimated from")},
+       {"unmeasured_kinds", described(list_of(kText), "kinds of jobs of which the store has none")},
+       {"max_jobs", described(kCount, "most jobs of a sweep")},
+       {"free_bytes", described(kCount, "room on the store's disk")}});
+}
+
+Json make_assembly() {
+  Json pose = list_of(kNumber);
+  pose["minItems"] = pose["maxItems"] = 7;
+  pose["description"] = "x_m, y_m, z_m, qx, qy, qz, qw";
+  return object_of(
+      {{"poses", {{"type", "object"}, {"additionalProperties", std::move(pose)}}},
+       {"undriven_freedoms",
+        described(or_null(kCount), "freedoms that neither drives nor joints take; null: of rpsup")}});
 }
 
 Json make_executors() {
@@ -192,14 +217,18 @@ Json make_resource_schemas() {
                {"Sweep", make_sweep(Detail::kFull)},
                {"SweepSummary", make_sweep(Detail::kListing)},
                {"SweepPage", make_page_schema("SweepSummary")},
+               {"SweepEstimate", make_sweep_estimate()},
+               {"Assembly", make_assembly()},
                {"Executors", make_executors()},
                {"ResultRow", make_result_row()},
                {"ResultRows", list_of(ref("ResultRow"))},
                {"Trajectory", make_trajectory()},
                {"JsonSchema", {{"type", "object"}, {"required", {"$schema", "properties"}}}},
                {"OpenApi", {{"type", "object"}, {"required", {"openapi", "info", "paths"}}}},
-               {"Status", object_of({{"status", kText}, {"reason", described(kText, "Of the status full")}},
-                                    {"reason"})},
+               {"Status", object_of({{"status", kText},
+                                     {"reason", described(kText, "Of the status full")},
+                                     {"version", described(kText, "Of the program, where it is healthy")}},
+                                    {"reason", "version"})},
                {"Text", kText},
                {"Binary", Json::object()}};
   schemas.update(make_search_schemas());

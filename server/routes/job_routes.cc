@@ -4,7 +4,10 @@
 #include <chrono>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "jobs/assembly.h"
+#include "jobs/base/errors.h"
 #include "jobs/requests/parameter_schema.h"
 #include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
@@ -42,6 +45,14 @@ Response post_job(const RequestContext& context) {
   return respond_created(
       context, job_resource(context),
       context.service.submit_job(parse_json(context.request.body), find_idempotency_key(context.request)));
+}
+
+Response post_assembly(const RequestContext& context) {
+  Query(context.request, {}).check();
+  const nlohmann::json request = parse_json(context.request.body);
+  if (!request.is_object() || request.size() != 1 || !request.contains("parameters"))
+    throw jobs::InvalidRequest(std::vector<jobs::Fault>{{"", "must be an object with \"parameters\""}});
+  return json_response(200, to_text(jobs::find_assembly(request.at("parameters"))));
 }
 
 Response get_jobs(const RequestContext& context) {

@@ -7,6 +7,7 @@
 namespace server {
 
 Response post_job(const RequestContext& context);
+Response post_assembly(const RequestContext& context);
 Response get_jobs(const RequestContext& context);
 Response get_job(const RequestContext& context);
 Response cancel_job(const RequestContext& context);

@@ -4,10 +4,14 @@
 #include <string>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
+#include "jobs/base/program_info.h"
 #include "server/messages/accept.h"
 #include "server/messages/conditional.h"
 #include "server/messages/error_answer.h"
 #include "server/messages/gzip.h"
+#include "server/messages/json_text.h"
 #include "server/messages/problem.h"
 #include "server/messages/query.h"
 #include "server/routes/web_files.h"
@@ -38,7 +42,9 @@ Response get_page_file(const RequestContext& context) {
                           context.request.path == "/" ? "/index.html" : context.request.path);
 }
 
-Response get_health(const RequestContext&) { return json_response(200, R"({"status":"ok"})"); }
+Response get_health(const RequestContext&) {
+  return json_response(200, to_text(nlohmann::json{{"status", "ok"}, {"version", jobs::kProgramVersion}}));
+}
 
 Response get_readiness(const RequestContext& context) {
   if (context.draining) return make_retry_later(503, "the service is shutting down");

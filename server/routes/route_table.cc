@@ -26,8 +26,9 @@ std::vector<Route> make_sweep_routes() {
   return {
       {.method = "POST", .pattern = "/v1/sweeps", .handler = post_sweep, .operation_id = "submitSweep",
        .tag = "sweeps", .summary = "Store a sweep and queue its jobs, or refuse all of it with every fault",
-       .headers = {"idempotency_key", "prefer"}, .body = "SweepRequest", .success = 201,
-       .answers = {{kJson, "Sweep"}}, .problems = {409, 422, 429}},
+       .query = {"dry_run"}, .headers = {"idempotency_key", "prefer"}, .body = "SweepRequest",
+       .success = 201, .answers = {{kJson, "Sweep"}}, .other_answers = {{200, {kJson, "SweepEstimate"}}},
+       .problems = {409, 422, 429}},
       {.method = "GET", .pattern = "/v1/sweeps", .handler = get_sweeps, .operation_id = "listSweeps",
        .tag = "sweeps", .summary = "Sweeps, the newest first",
        .query = {"state", "limit", "cursor", "fields"}, .answers = {{kJson, "SweepPage"}}, .problems = {422}},
@@ -35,6 +36,9 @@ std::vector<Route> make_sweep_routes() {
        .tag = "sweeps", .summary = "State, progress, time left and request of a sweep",
        .headers = {"prefer", "if_none_match"}, .answers = {{kJson, "Sweep"}}, .bodiless = {304},
        .problems = {404, 422}},
+      {.method = "PATCH", .pattern = "/v1/sweeps/{id}", .handler = describe_sweep,
+       .operation_id = "describeSweep", .tag = "sweeps", .summary = "Change name, notes or tags of a sweep",
+       .body = "SweepDescription", .answers = {{kJson, "Sweep"}}, .problems = {404, 422}},
       {.method = "DELETE", .pattern = "/v1/sweeps/{id}", .handler = delete_sweep,
        .operation_id = "deleteSweep", .tag = "sweeps",
        .summary = "Delete a sweep that has ended, and the results that no other shares", .success = 204,
@@ -225,9 +229,10 @@ std::vector<Route> make_analysis_routes() {
        .bodiless = {304}, .problems = {404, 409, 422}},
       {.method = "GET", .pattern = "/v1/sweeps/{id}/report", .handler = get_report,
        .operation_id = "getReport", .tag = "sweeps",
-       .summary = "Report of the sweep, one self-contained page: figures, tables, provenance, and the "
-                  "command that repeats it",
-       .headers = {"if_none_match"}, .answers = {{kHtml, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
+       .summary = "Report of the sweep, one self-contained page: largest values, figures, tables, "
+                  "provenance, and the command that repeats it",
+       .query = {"metric", "report_x", "report_rows"}, .headers = {"if_none_match"},
+       .answers = {{kHtml, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
       {.method = "GET", .pattern = "/v1/jobs/{id}/spectrum", .handler = get_spectrum,
        .operation_id = "getSpectrum", .tag = "jobs",
        .summary = "Spectrum of a channel: amplitude and power density over frequency",
@@ -307,6 +312,10 @@ std::vector<Route> make_measurement_routes() {
 
 std::vector<Route> make_other_routes() {
   return {
+      {.method = "POST", .pattern = "/v1/linkages/assembly", .handler = post_assembly,
+       .operation_id = "assembleLinkage", .tag = "interface",
+       .summary = "Poses of the links of a job at t = 0; nothing is stored", .body = "AssemblyRequest",
+       .answers = {{kJson, "Assembly"}}, .problems = {422}},
       {.method = "GET", .pattern = "/v1/parameters", .handler = get_parameters,
        .operation_id = "getParameters", .tag = "interface",
        .summary = "JSON Schema of the parameters of a job", .answers = {{kJson, "JsonSchema"}},

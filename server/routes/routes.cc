@@ -59,10 +59,14 @@ std::string address_query(const Request& request) {
   return text;
 }
 
+bool changes_something(std::string_view method) {
+  return method == "POST" || method == "PATCH" || method == "DELETE";
+}
+
 /// Whether a request may take much memory or time: tables and analyses of a sweep, and large bodies.
 bool is_heavy(const Route& route, const Request& request) {
   constexpr std::size_t kLargeBody = 64 * 1024;
-  if (route.method == "POST") return request.body.size() > kLargeBody;
+  if (changes_something(route.method)) return request.body.size() > kLargeBody;
   return route.pattern.find("{id}/") != std::string_view::npos && !route.pattern.ends_with("/events");
 }
 
@@ -71,8 +75,6 @@ std::shared_ptr<const void> idle_permit() {
   static constexpr char kNone = 0;
   return {std::shared_ptr<const void>(), &kNone};
 }
-
-bool changes_something(const std::string& method) { return method == "POST" || method == "DELETE"; }
 
 Response make_wrong_method(const std::string& allowed) {
   Response response = make_problem(405, "this path allows: " + allowed);

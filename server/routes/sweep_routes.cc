@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/routes/sweep_routes.h"
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "server/messages/conditional.h"
@@ -40,7 +42,12 @@ Resource sweep_resource(const RequestContext& context) {
 }  // namespace
 
 Response post_sweep(const RequestContext& context) {
-  Query(context.request, {}).check();
+  Query query(context.request, {"dry_run"});
+  constexpr std::array<std::string_view, 2> kWords{"false", "true"};
+  const bool dry = query.word("dry_run", kWords) == kWords.back();
+  query.check();
+  if (dry)
+    return json_response(200, to_text(context.service.estimate_sweep(parse_json(context.request.body))));
   return respond_created(
       context, sweep_resource(context),
       context.service.submit_sweep(parse_json(context.request.body), find_idempotency_key(context.request)));
@@ -55,6 +62,12 @@ Response get_sweeps(const RequestContext& context) {
 Response get_sweep(const RequestContext& context) {
   Query(context.request, {}).check();
   return respond_found(context, sweep_resource(context));
+}
+
+Response describe_sweep(const RequestContext& context) {
+  Query(context.request, {}).check();
+  return respond_updated(context, sweep_resource(context),
+                         context.service.describe_sweep(context.id, parse_json(context.request.body)));
 }
 
 Response delete_sweep(const RequestContext& context) {

@@ -9,6 +9,7 @@ namespace server {
 Response post_sweep(const RequestContext& context);
 Response get_sweeps(const RequestContext& context);
 Response get_sweep(const RequestContext& context);
+Response describe_sweep(const RequestContext& context);
 Response delete_sweep(const RequestContext& context);
 Response get_results(const RequestContext& context);
 Response get_events(const RequestContext& context);

@@ -50,7 +50,7 @@ TEST(StoreForm, TakesOverAStoreOfForm1) {
     EXPECT_TRUE(store.reader.find_trajectory(results.rows[0].job_id).has_value());
     EXPECT_TRUE(store.reader.find_job(results.rows[0].job_id).has_value());
   }
-  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "5");
+  EXPECT_EQ(query_sql(temporary.file(), "PRAGMA user_version"), "6");
   EXPECT_EQ(query_sql(temporary.file(), "PRAGMA integrity_check"), "ok");
 }
 
@@ -93,7 +93,7 @@ TEST_P(FormerStore, GoesOn) {
   EXPECT_EQ(service.find_sweep(id).value().at("counts").at("succeeded"), 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, FormerStore, testing::Range(1, 5));
+INSTANTIATE_TEST_SUITE_P(Forms, FormerStore, testing::Range(1, 6));
 
 class FormerAnswers : public FormerStore {};
 
@@ -107,7 +107,7 @@ TEST_P(FormerAnswers, AreGivenAgain) {
   EXPECT_NE(service.submit_sweep(request, "another-key").at("id"), id);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, FormerAnswers, testing::Values(2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Forms, FormerAnswers, testing::Values(2, 3, 4, 5));
 
 TEST(StoreForm, TakesOverTheSearchesOfForm3) {
   const TemporaryStore temporary;

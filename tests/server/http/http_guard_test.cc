@@ -99,7 +99,7 @@ TEST(HttpCors, LetsTheSitesOnTheListIn) {
           "Access-Control-Request-Method: POST\r\nAccess-Control-Request-Private-Network: true\r\n");
   EXPECT_EQ(status_of(preflight), 204);
   for (const char* const header : {"Access-Control-Allow-Origin: https://lab.example.org\r\n",
-                                   "Access-Control-Allow-Methods: GET, HEAD, POST, DELETE\r\n",
+                                   "Access-Control-Allow-Methods: GET, HEAD, POST, PATCH, DELETE\r\n",
                                    "Access-Control-Allow-Headers: Authorization, Content-Type,",
                                    "Access-Control-Allow-Private-Network: true\r\n", "Vary: Origin\r\n"}) {
     EXPECT_NE(preflight.find(header), std::string::npos) << header << preflight;

@@ -64,6 +64,16 @@ TEST_F(Http, AnswersInProblemJsonWhateverIsWrong) {
   }
 }
 
+TEST_F(Http, TakesTheBodyOfAPatch) {
+  const auto patch = [&](const std::string& body, const std::string& head = "") {
+    return ask("PATCH /v1/sweeps/swp_none HTTP/1.1\r\nHost: localhost\r\n" + head + "Content-Length: " +
+               std::to_string(body.size()) + "\r\n\r\n" + body);
+  };
+  EXPECT_EQ(status_of(patch(R"({"name": "x"})")), 404) << "understood: there is no such sweep";
+  EXPECT_EQ(status_of(patch("name")), 400);
+  EXPECT_EQ(status_of(patch(R"({"name": "x"})", "Origin: https://evil.example\r\n")), 403);
+}
+
 TEST_F(Http, RefusesAHeadThatIsTooLarge) {
   EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(20'000, 'a') + "\r\n")), 431);
   std::string many;

@@ -2,8 +2,11 @@
 #include "server/routes/job_routes.h"
 
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -51,6 +54,91 @@ TEST(PostJob, NamesEveryFault) {
   EXPECT_EQ(json::parse(response.body).at("errors").size(), 2U);
 }
 
+TEST(Assembly, GivesTheFirstPoseOfEveryLink) {
+  Bench bench(jobs::engine_runner());
+  const char* const pendulum = R"({"parameters": {"linkage": {
+    "bodies": {"arm": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}},
+    "joints": {"pivot": {"kind": "revolute", "axis": "z", "from": "ground", "to": "arm", "at_m": [1, 2, 3],
+                         "start_rad": 1.5707963267948966}}}}})";
+  const auto answer = bench.call("POST", "/v1/linkages/assembly", pendulum);
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  const json assembly = json::parse(answer.body);
+  EXPECT_EQ(assembly.at("undriven_freedoms"), 1);
+  const auto pose = assembly.at("poses").at("arm").get<std::vector<double>>();
+  const std::vector<double> expected{1, 2, 3, 0, 0, std::sqrt(0.5), std::sqrt(0.5)};
+  ASSERT_EQ(pose.size(), expected.size());
+  for (std::size_t i = 0; i < pose.size(); ++i) EXPECT_NEAR(pose[i], expected[i], 1e-6) << i;
+  EXPECT_TRUE(json::parse(bench.call("GET", "/v1/jobs").body).at("items").empty());
+}
+
+// A four-bar linkage: three freedoms of joints that carry bodies, less two of a planar loop.
+json four_bar(const json& first_joint) {
+  json linkage = json::parse(R"({
+    "bodies": {"crank": {"mass_kg": 1, "centre_of_mass_m": [0.1, 0, 0]},
+               "coupler": {"mass_kg": 1, "centre_of_mass_m": [0.2, 0, 0]},
+               "rocker": {"mass_kg": 1, "centre_of_mass_m": [0.15, 0, 0]}},
+    "joints": {"a": {"kind": "revolute", "from": "ground", "to": "crank"},
+               "b": {"kind": "revolute", "from": "crank", "to": "coupler", "at_m": [0.2, 0, 0], "guess_rad": 0.9},
+               "c": {"kind": "revolute", "from": "coupler", "to": "rocker", "at_m": [0.5, 0, 0], "guess_rad": 1.6},
+               "d": {"kind": "revolute", "from": "ground", "to": "rocker", "at_m": [0.5, 0, 0],
+                     "to_at_m": [0.4, 0, 0], "closes_loop": true}}})");
+  linkage.at("joints").at("a").update(first_joint);
+  return {{"parameters", {{"linkage", linkage}}}};
+}
+
+TEST(Assembly, CountsTheFreedomsThatNoDriveMoves) {
+  Bench bench(jobs::engine_runner());
+  const auto count = [&](const json& first_joint) {
+    const auto answer = bench.call("POST", "/v1/linkages/assembly", four_bar(first_joint).dump());
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return answer.status == 200 ? json::parse(answer.body).at("undriven_freedoms") : json();
+  };
+  EXPECT_EQ(count({{"guess_rad", 0.0}}), 1);
+  EXPECT_EQ(count({{"drive", {{"law", "run_up"}, {"velocity_rad_s", 1}}}}), 0);
+}
+
+// The poses are those with which a run begins.
+TEST(Assembly, IsTheFirstSampleOfAJob) {
+  Bench bench(jobs::engine_runner());
+  const std::string parameters = R"({"clearance_mm": 0.25, "duration_s": 0.01, "run_up_s": 0.005})";
+  const auto answer = bench.call("POST", "/v1/linkages/assembly", R"({"parameters": )" + parameters + "}");
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  const json assembly = json::parse(answer.body);
+  EXPECT_TRUE(assembly.at("undriven_freedoms").is_null());
+  const std::string id = run_job(bench, parameters);
+  const json columns = json::parse(bench.call("GET", "/v1/jobs/" + id + "/trajectory").body).at("columns");
+  std::size_t compared = 0;
+  for (const auto& [link, pose] : assembly.at("poses").items()) {
+    EXPECT_NEAR(pose.at(0).get<double>(), columns.at("pose_" + link + "_x_m").at(0).get<double>(), 1e-7)
+        << link;
+    EXPECT_NEAR(pose.at(6).get<double>(), columns.at("pose_" + link + "_qw").at(0).get<double>(), 1e-7)
+        << link;
+    ++compared;
+  }
+  EXPECT_GE(compared, 5U);
+}
+
+TEST(Assembly, NamesTheFaultsOfADescription) {
+  Bench bench(jobs::engine_runner());
+  const auto pointer_of = [&](const std::string& body) {
+    const auto refused = bench.call("POST", "/v1/linkages/assembly", body);
+    EXPECT_EQ(refused.status, 422) << refused.body;
+    return json::parse(refused.body).at("errors").at(0).at("pointer").get<std::string>();
+  };
+  EXPECT_EQ(pointer_of("{}"), "");
+  EXPECT_EQ(pointer_of(R"({"parameters": {"clearance_mm": -1}})"), "/parameters/clearance_mm");
+  EXPECT_EQ(pointer_of(R"({"parameters": {"linkage": {"bodies": {"arm": {"mass_kg": 1}},
+              "joints": {"pivot": {"kind": "hinge", "from": "ground", "to": "arm"}}}}})"),
+            "/parameters/linkage/joints/pivot/kind");
+  // Two links of 1 m do not reach over 3 m.
+  EXPECT_EQ(pointer_of(R"({"parameters": {"linkage": {"bodies": {"a": {"mass_kg": 1}, "b": {"mass_kg": 1}},
+              "joints": {"one": {"kind": "revolute", "from": "ground", "to": "a"},
+                         "two": {"kind": "revolute", "from": "a", "to": "b", "at_m": [1, 0, 0]},
+                         "three": {"kind": "revolute", "from": "ground", "to": "b", "at_m": [3, 0, 0],
+                                   "to_at_m": [1, 0, 0], "closes_loop": true}}}}})"),
+            "/parameters/linkage/joints/three");
+}
+
 TEST(CancelJob, EndsWhatRuns) {
   Bench bench(endless_run);
   const auto created = bench.call("POST", "/v1/jobs", "{}");
@@ -68,7 +156,8 @@ TEST(CancelJob, EndsWhatRuns) {
 
 TEST(DeleteJob, DeletesOneOfNoSweep) {
   Bench bench;
-  const json sweep = json::parse(bench.call("POST", "/v1/sweeps", R"({"sweep": {"clearance_mm": [0.1]}})").body);
+  const json sweep =
+      json::parse(bench.call("POST", "/v1/sweeps", R"({"sweep": {"clearance_mm": [0.1]}})").body);
   const std::string results = "/v1/sweeps/" + sweep.at("id").get<std::string>() + "/results";
   const std::string of_sweep = json::parse(bench.call("GET", results).body).at(0).at("job_id");
   EXPECT_EQ(bench.call("DELETE", "/v1/jobs/" + of_sweep).status, 409);

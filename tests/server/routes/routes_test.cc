@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "jobs/base/program_info.h"
 #include "server/messages/identifiers.h"
 #include "tests/server/service_fixture.h"
 
@@ -45,7 +46,7 @@ TEST(Routes, AnswerOtherMethodsWith405AndAllow) {
     const char* allow;
   };
   for (const Case& c :
-       {Case{"PUT", "/v1/sweeps", "POST, GET, HEAD"}, Case{"POST", "/v1/sweeps/a", "GET, HEAD, DELETE"},
+       {Case{"PUT", "/v1/sweeps", "POST, GET, HEAD"}, Case{"POST", "/v1/sweeps/a", "GET, HEAD, PATCH, DELETE"},
         Case{"GET", "/v1/sweeps/a/cancel", "POST"}, Case{"OPTIONS", "/", "GET, HEAD"}}) {
     const auto response = bench.call(c.method, c.path);
     EXPECT_EQ(response.status, 405) << c.path;
@@ -83,7 +84,8 @@ TEST(Routes, ServeThePage) {
 
 TEST(Routes, AreHealthyAndReady) {
   Bench bench;
-  EXPECT_EQ(json::parse(bench.call("GET", "/healthz").body), json::parse(R"({"status": "ok"})"));
+  EXPECT_EQ(json::parse(bench.call("GET", "/healthz").body),
+            (json{{"status", "ok"}, {"version", jobs::kProgramVersion}}));
   EXPECT_EQ(json::parse(bench.call("GET", "/readyz").body), json::parse(R"({"status": "ready"})"));
 }
 

@@ -93,6 +93,93 @@ TEST(PostSweep, RefusesWhatIsNoJson) {
   EXPECT_EQ(bench.call("POST", "/v1/sweeps", kSmallSweep, {{"dry_run", "1"}}).status, 422);
 }
 
+std::set<std::string> pointers_in(const server::Response& refused) {
+  std::set<std::string> pointers;
+  const json problem = json::parse(refused.body);
+  for (const auto& error : problem.at("errors")) pointers.insert(error.at("pointer").get<std::string>());
+  return pointers;
+}
+
+TEST(DryRun, TellsTheCostAndStoresNothing) {
+  Bench bench;
+  const auto ask = [&](const std::string& request) {
+    const auto answer = bench.call("POST", "/v1/sweeps", request, {{"dry_run", "true"}});
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return json::parse(answer.body);
+  };
+  const json before = ask(kSmallSweep);
+  EXPECT_EQ(before.at("jobs"), 4);
+  EXPECT_EQ(before.at("new_jobs"), 4);
+  EXPECT_EQ(before.at("stored_jobs"), 0);
+  EXPECT_TRUE(before.at("seconds").is_null()) << "no job of these kinds has been computed";
+  EXPECT_EQ(before.at("unmeasured_kinds").size(), 2U);
+  EXPECT_TRUE(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").empty());
+  bench.run(kSmallSweep);
+  const json after = ask(kSmallSweep);
+  EXPECT_EQ(after.at("new_jobs"), 0);
+  EXPECT_EQ(after.at("stored_jobs"), 4);
+  EXPECT_EQ(after.at("seconds"), 0.0);
+  const json more = ask(R"({"sweep": {"clearance_mm": [0.1, 0.3, 0.3001], "coupler": ["rigid"]}})");
+  EXPECT_EQ(more.at("stored_jobs"), 1);
+  EXPECT_EQ(more.at("measured_jobs"), 2);
+  EXPECT_GT(more.at("seconds"), 0.0);
+  EXPECT_GT(more.at("bytes"), 0.0);
+  const json bare =
+      ask(R"({"keep": "metrics", "sweep": {"clearance_mm": [0.1, 0.3], "coupler": ["rigid"]}})");
+  EXPECT_LT(bare.at("bytes"), more.at("bytes"));
+  EXPECT_GT(bare.at("free_bytes"), 0);
+  EXPECT_EQ(ask(R"({"reuse": false, "sweep": {"clearance_mm": [0.1]}})").at("new_jobs"), 1);
+}
+
+TEST(DryRun, NamesEveryFaultOfTheRequest) {
+  Bench bench;
+  const auto refused = bench.call("POST", "/v1/sweeps", R"({"sweep": {"clearance_mm": [0.1, -1, "a"]}})",
+                                  {{"dry_run", "true"}});
+  ASSERT_EQ(refused.status, 422);
+  EXPECT_EQ(pointers_in(refused), (std::set<std::string>{"/sweep/clearance_mm/1", "/sweep/clearance_mm/2"}));
+}
+
+TEST(DescribeSweep, ChangesWhatPeopleHaveWritten) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSmallSweep);
+  const json before = json::parse(bench.call("GET", path).body);
+  EXPECT_EQ(before.at("notes"), "");
+  EXPECT_EQ(before.at("tags"), json::array());
+  const auto changed = bench.call("PATCH", path, R"({"notes": "rig 2", "tags": ["dry", "pin B", "dry"]})");
+  ASSERT_EQ(changed.status, 200) << changed.body;
+  const json after = json::parse(bench.call("GET", path).body);
+  EXPECT_EQ(json::parse(changed.body), after);
+  EXPECT_EQ(after.at("name"), "small");
+  EXPECT_EQ(after.at("notes"), "rig 2");
+  EXPECT_EQ(after.at("tags"), json({"dry", "pin B"}));
+  EXPECT_EQ(after.at("request"), before.at("request"));
+  EXPECT_EQ(bench.call("PATCH", path, R"({"name": "", "tags": []})").status, 200);
+  const json item = json::parse(bench.call("GET", "/v1/sweeps").body).at("items").at(0);
+  EXPECT_EQ(item.at("name"), "");
+  EXPECT_EQ(item.at("tags"), json::array());
+  EXPECT_EQ(item.at("notes"), "rig 2");
+}
+
+TEST(DescribeSweep, NamesEveryFaultAndChangesNothing) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kSmallSweep);
+  const auto refused = bench.call("PATCH", path,
+                                  json{{"name", 1},
+                                       {"note", "x"},
+                                       {"notes", std::string(10'001, 'a')},
+                                       {"tags", {"good", "", 3, std::string(51, 'a')}}}
+                                      .dump());
+  ASSERT_EQ(refused.status, 422) << refused.body;
+  EXPECT_EQ(pointers_in(refused),
+            (std::set<std::string>{"/name", "/note", "/notes", "/tags/1", "/tags/2", "/tags/3"}));
+  for (const char* const body : {"{}", "[]", R"("name")", R"({"tags": "dry"})"})
+    EXPECT_EQ(bench.call("PATCH", path, body).status, 422) << body;
+  EXPECT_EQ(bench.call("PATCH", path, "name").status, 400);
+  EXPECT_EQ(json::parse(bench.call("GET", path).body).at("name"), "small");
+  EXPECT_EQ(bench.call("PATCH", "/v1/sweeps/swp_none", R"({"name": "x"})").status, 404);
+  EXPECT_EQ(bench.call("PATCH", "/v1/jobs/job_none", R"({"name": "x"})").status, 405);
+}
+
 TEST(GetSweeps, PagesFromTheNewest) {
   Bench bench;
   const std::string first = bench.run(R"({"name": "first", "sweep": {"clearance_mm": [0.1]}})");
