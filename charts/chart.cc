@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "charts/svg_text.h"
+
 namespace charts {
 
 namespace {
@@ -22,26 +24,6 @@ std::string format_digits(double value, int digits) {
   char text[48];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
-}
-
-/// A pixel coordinate: a tenth is finer than the eye.
-std::string pixel(double value) {
-  std::string text = format("%.1f", value);
-  return text == "-0.0" ? "0.0" : text;
-}
-
-std::string escape(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return safe;
-}
-
-struct Point {
-  double x, y;
-};
-
-std::string draw_text(Point at, const char* anchor, const std::string& text, const std::string& more = "") {
-  return "<text x=\"" + pixel(at.x) + "\" y=\"" + pixel(at.y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + escape(text) + "</text>\n";
 }
 
 /// One axis: from values to pixels.
@@ -145,12 +127,24 @@ double calc_left_margin(const Chart& chart) {
   return std::max(kLeast, kCharacter * longest + (chart.y_label.empty() ? 8.0 : 22.0));
 }
 
+std::size_t longest_series_label(const Chart& chart) {
+  std::size_t longest = 0;
+  for (const Series& series : chart.series) longest = std::max(longest, series.label.size());
+  return longest;
+}
+
+/// Room for a legend beside the axes.
+double calc_legend_width(const Chart& chart) {
+  if (!chart.legend_outside || longest_series_label(chart) == 0) return 0.0;
+  return 6.6 * static_cast<double>(longest_series_label(chart)) + 30.0;
+}
+
 class ChartDrawing {
  public:
   ChartDrawing(const Chart& chart, double left, double top, double width, double height)
       : chart_(chart),
         left_(left),
-        box_{left + calc_left_margin(chart), top + 28.0, left + width - 14.0, top + height - 40.0},
+        box_{left + calc_left_margin(chart), top + 28.0, left + width - 14.0 - calc_legend_width(chart), top + height - 40.0},
         x_(make_x()),
         y_(make_y()) {}
 
@@ -220,7 +214,11 @@ class ChartDrawing {
       last = here;
     }
     if (path.empty() || series.width <= 0.0) return dots;
-    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" + format("%g", series.width) + "\"/>\n" + dots;
+    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" + format("%g", series.width) + "\"" + dashes_of(series) + "/>\n" + dots;
+  }
+
+  [[nodiscard]] static std::string dashes_of(const Series& series) {
+    return series.dashes.empty() ? "" : " stroke-dasharray=\"" + series.dashes + "\"";
   }
 
   [[nodiscard]] std::string draw_legend() const {
@@ -228,6 +226,12 @@ class ChartDrawing {
     double y = box_.top + 12.0;
     for (const Series& series : chart_.series) {
       if (series.label.empty()) continue;
+      if (chart_.legend_outside) {
+        svg += "<path d=\"M" + pixel(box_.right + 8.0) + " " + pixel(y - 4.0) + "h14\" stroke=\"" + series.colour + "\" stroke-width=\"3\"" + dashes_of(series) + "/>\n";
+        svg += draw_text({box_.right + 27.0, y}, "start", series.label);
+        y += 15.0;
+        continue;
+      }
       const double width = 7.0 * static_cast<double>(series.label.size()) + 22.0;  // of the ground that keeps it legible over lines
       svg += "<rect x=\"" + pixel(box_.right - width) + "\" y=\"" + pixel(y - 12.0) + "\" width=\"" + pixel(width) +
              "\" height=\"15\" fill=\"#fff\" fill-opacity=\"0.8\"/>\n";
@@ -248,17 +252,13 @@ class ChartDrawing {
 
 std::string draw(const std::vector<Chart>& charts, int columns, int width, int height) {
   const int rows = (static_cast<int>(charts.size()) + columns - 1) / columns;
-  const std::string all_width = std::to_string(columns * width);
-  const std::string all_height = std::to_string(rows * height);
-  const std::string size = "width=\"" + all_width + "\" height=\"" + all_height + "\"";
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + all_width + " " + all_height +
-                    "\" font-family=\"sans-serif\" font-size=\"12\" fill=\"#222\">\n<rect " + size + " fill=\"#fff\"/>\n";
+  std::string body;
   for (std::size_t k = 0; k < charts.size(); ++k) {
     const int row = static_cast<int>(k) / columns;
     const int column = static_cast<int>(k) % columns;
-    svg += ChartDrawing(charts[k], column * width, row * height, width, height).draw();
+    body += ChartDrawing(charts[k], column * width, row * height, width, height).draw();
   }
-  return svg + "</svg>\n";
+  return wrap_svg(body, columns * width, rows * height);
 }
 
 }  // namespace charts

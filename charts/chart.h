@@ -13,6 +13,7 @@ struct Series {
   std::string colour = "#1f78b4";
   bool markers = false;          ///< a dot at each point as well
   double width = 1.2;            ///< of the line, [px]; 0: none
+  std::string dashes{};          ///< lengths of dashes and gaps, "6 3"; empty: an unbroken line
 };
 
 enum class Scale { kLinear, kLog };
@@ -23,6 +24,7 @@ struct Chart {
   Scale x_scale = Scale::kLinear, y_scale = Scale::kLinear;
   double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
   std::vector<Series> series{};
+  bool legend_outside = false;   ///< beside the axes, not over them
   bool equal_axes = false;       ///< a unit of x is as long as one of y: for orbits
 };
 

@@ -192,6 +192,9 @@ Command add_report(CLI::App& app) {
       app, "report", "Save the report of a sweep, an HTML page that needs no other file", *options);
   add_id_option(*command, options->id)->required();
   add_output_option(*command, options->output, "Output file: .html; - writes standard output");
+  command->add_option("--metric", options->metric, "Metric of the page; that of the service if left out");
+  command->add_option("--x", options->x, "Number along the charts; the first that is swept if left out");
+  command->add_flag("--rows", options->rows, "List all jobs in an appendix");
   return make_remote_command(command, options, save_report);
 }
 

@@ -98,6 +98,9 @@ int trajectory(const TrajectoryOptions& options);
 struct ReportOptions {
   RemoteOptions remote;
   std::string id;
+  std::string metric{};      ///< empty: that of the service
+  std::string x{};           ///< axis along the charts; empty: that of the service
+  bool rows = false;         ///< list all jobs in an appendix
   std::string output = "-";  ///< file; "-": standard output
 };
 

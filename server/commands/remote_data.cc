@@ -147,7 +147,12 @@ int save_report(const ReportOptions& options) {
   const OutputFile output{"--output", options.output};
   check_suffix(output, ".html");
   if (options.output != "-") check_output_file(output.option, output.path);
-  write_text(output.path, RemoteService(options.remote).get_part(kind, options.id, "report", "text/html"));
+  QueryItems query;
+  if (!options.metric.empty()) query.emplace_back("metric", options.metric);
+  if (!options.x.empty()) query.emplace_back("x", options.x);
+  if (options.rows) query.emplace_back("rows", "true");
+  write_text(output.path,
+             RemoteService(options.remote).get_part(kind, options.id, "report", "text/html", query));
   return kDone;
 }
 

@@ -47,7 +47,7 @@ Json make_flexibility() {
       {"ratio", described(kNumberOrNull, "flexible over rigid mean")},
       {"ratio_least", described(kNumberOrNull, "least flexible over largest rigid value")},
       {"ratio_largest", kNumberOrNull},
-      {"verdict", {{"enum", {"helps", "harms", "either", nullptr}}}},
+      {"verdict", {{"enum", {"helps", "harms", "either", "one_run_each", nullptr}}}},
       {"along", or_null(kText)},
       {"reverses_from", described(kNumberOrNull,
                                   "the last value of the parameter `along` at which the ratio was not 1 "

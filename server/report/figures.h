@@ -3,14 +3,13 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
-
-#include "jobs/results/result_table.h"
+#include "server/report/report_view.h"
 
 namespace server::report {
 
-/// Metrics over the first number that a sweep varies, a line for each combination of what else it varies:
-/// means with the least and the largest of what lies together. Empty if it varies no number.
-[[nodiscard]] std::string make_figures(const nlohmann::json& sweep, const jobs::ResultTable& results);
+/// The chosen metric and others over the axis along the charts, a line for each combination of what else is
+/// varied: means with the least and the largest of what lies together. Of many combinations some are drawn,
+/// evenly spread, and that with the largest value. Empty if no number is varied.
+[[nodiscard]] std::string make_figures(const ReportView& view);
 
 }  // namespace server::report

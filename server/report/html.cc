@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/report/html.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <string_view>
 
 #include <openssl/evp.h>
+
+#include "jobs/base/ids.h"
 
 namespace server::report {
 
@@ -18,14 +22,26 @@ h2 { margin-top: 2rem; border-bottom: 1px solid #ccc; break-after: avoid; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.85rem; }
 th, td { padding: 0.2rem 0.8rem 0.2rem 0; border-bottom: 1px solid #ddd; text-align: left;
          vertical-align: top; }
-td.number { text-align: right; }
+.number { text-align: right; }
 thead { display: table-header-group; }
 pre { background: #f4f4f4; padding: 0.8rem; white-space: pre-wrap; overflow-wrap: anywhere; }
 svg { max-width: 100%; height: auto; }
 figure { margin: 1rem 0; break-inside: avoid; }
 figcaption, .quiet { color: #555; font-size: 0.85rem; }
+.headlines { font-size: 1.1rem; padding-left: 1.2rem; }
+.notes { white-space: pre-wrap; }
 .wide { overflow-x: auto; }
-@media print { body { margin: 0; max-width: none; font-size: 11px; } .wide { overflow: visible; } }
+@page { size: A4; margin: 14mm 12mm; }
+@media print {
+  body { margin: 0; padding: 0; max-width: none; font-size: 10.5px; }
+  h1 { margin-top: 0; }
+  .wide { overflow: visible; }
+  table { width: 100%; font-size: 8.5px; }
+  th, td { padding: 0.15rem 0.4rem 0.15rem 0; overflow-wrap: anywhere; }
+  tr { break-inside: avoid; }
+  .headlines { font-size: 12px; }
+  figcaption, .quiet { font-size: 9px; }
+}
 )";
 
 std::string style_hash() {
@@ -43,11 +59,20 @@ std::string escape(const std::string& text) {
   std::string safe;
   for (const char c : text) {
     switch (c) {
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '&': safe += "&amp;"; break;
-      case '"': safe += "&quot;"; break;
-      default: safe += c;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
     }
   }
   return safe;
@@ -62,17 +87,37 @@ std::string cell_text(const nlohmann::json& cell) {
   return text.data();
 }
 
+namespace {
+
+bool has_numbers(const std::vector<std::vector<nlohmann::json>>& rows, std::size_t column) {
+  return std::ranges::any_of(rows, [&](const auto& row) { return row[column].is_number(); });
+}
+
+/// A job's id leads to its page, from below /v1/sweeps/{id}/.
+std::string cell_html(const nlohmann::json& cell) {
+  const std::string text = escape(cell_text(cell));
+  if (!text.starts_with(jobs::kJobPrefix)) return text;
+  return "<a href=\"../../../#/jobs/" + text + "\">" + text + "</a>";
+}
+
+}  // namespace
+
 std::string make_table(const std::vector<std::string>& headings,
                        const std::vector<std::vector<nlohmann::json>>& rows) {
   // What may be wider than the window is reached with the keyboard, too.
-  std::string html =
-      "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table><thead><tr>";
-  for (const std::string& heading : headings) html += "<th scope=\"col\">" + escape(heading) + "</th>";
-  html += "</tr></thead><tbody>\n";
+  std::string html = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table>";
+  if (!headings.empty()) {
+    html += "<thead><tr>";
+    for (std::size_t c = 0; c < headings.size(); ++c)
+      html += std::string("<th scope=\"col\"") + (has_numbers(rows, c) ? " class=\"number\"" : "") + ">" +
+              escape(headings[c]) + "</th>";
+    html += "</tr></thead>";
+  }
+  html += "<tbody>\n";
   for (const auto& row : rows) {
     html += "<tr>";
     for (const auto& cell : row)
-      html += (cell.is_number() ? "<td class=\"number\">" : "<td>") + escape(cell_text(cell)) + "</td>";
+      html += (cell.is_number() ? "<td class=\"number\">" : "<td>") + cell_html(cell) + "</td>";
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";

@@ -14,7 +14,7 @@ namespace server::report {
 /// A cell as people read it: numbers in five significant digits, null as a dash.
 [[nodiscard]] std::string cell_text(const nlohmann::json& cell);
 
-/// A table with a heading for each column.
+/// A table with a heading for each column; without headings, if there are none. Ids of jobs are links.
 [[nodiscard]] std::string make_table(const std::vector<std::string>& headings,
                                      const std::vector<std::vector<nlohmann::json>>& rows);
 

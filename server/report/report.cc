@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -14,7 +15,9 @@
 #include "jobs/statistics/replicate_statistics.h"
 #include "server/messages/json_text.h"
 #include "server/report/figures.h"
+#include "server/report/heat_maps.h"
 #include "server/report/html.h"
+#include "server/report/quantity_text.h"
 
 namespace server::report {
 
@@ -24,73 +27,146 @@ using jobs::value_or_null;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostSets = 300;  ///< rows of a table that people read
+constexpr std::size_t kMostSets = 40;  ///< rows of a table that people read
+
+/// A table with titles as headings, without some of its columns.
+std::string make_titled_table(const jobs::ResultTable& table, const std::vector<std::string>& left_out) {
+  std::vector<std::size_t> kept;
+  std::vector<std::string> headings;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (std::ranges::find(left_out, table.columns[c]) != left_out.end()) continue;
+    kept.push_back(c);
+    headings.push_back(title_of(table.columns[c]));
+  }
+  std::vector<std::vector<json>> rows;
+  for (const auto& row : table.rows) {
+    std::vector<json> cells;
+    for (const std::size_t c : kept) cells.push_back(row[c]);
+    rows.push_back(std::move(cells));
+  }
+  return make_table(headings, rows);
+}
 
 std::string heading(const std::string& text) { return "<h2>" + escape(text) + "</h2>\n"; }
 
 std::string make_summary(const json& sweep) {
   std::vector<std::vector<json>> rows;
-  for (const char* const key : {"id", "state", "created_at", "started_at", "ended_at"})
-    rows.push_back({key, sweep.at(key)});
-  for (const auto& [state, count] : sweep.at("counts").items()) {
-    if (count != 0) rows.push_back({"jobs, " + state, count});
-  }
-  return make_table({"", ""}, rows);
+  const auto add = [&](const char* name, const json& value) {
+    if (!value.is_null() && value != "") rows.push_back({name, value});
+  };
+  add("Sweep", sweep.at("id"));
+  add("State", sweep.at("state"));
+  add("Submitted", sweep.at("created_at"));
+  add("First job started", sweep.at("started_at"));
+  add("Last job ended", sweep.at("ended_at"));
+  std::string tags;
+  for (const json& tag : sweep.at("tags")) tags += (tags.empty() ? "" : ", ") + tag.get<std::string>();
+  add("Tags", tags);
+  for (const auto& [state, count] : sweep.at("counts").items())
+    if (count != 0) rows.push_back({state == "total" ? "Jobs" : "Jobs, " + state, count});
+  const std::string notes = sweep.at("notes");
+  return make_table({}, rows) + (notes.empty() ? "" : "<p class=\"notes\">" + escape(notes) + "</p>\n");
 }
 
 jobs::ReplicateStatistics statistics_of(const jobs::ResultTable& results, const jobs::RowGroup& group,
-                                        const std::string& column) {
-  const std::size_t c = jobs::find_column(results, column, "");
+                                        std::size_t column) {
   std::vector<double> values;
   for (const std::size_t r : group.rows) {
-    if (const auto value = jobs::number_in(results.rows[r][c])) values.push_back(*value);
+    if (const auto value = jobs::number_in(results.rows[r][column])) values.push_back(*value);
   }
   return jobs::calc_replicate_statistics(values);
 }
 
-/// A row for each set of parameters: the peak over its replicates, and means of other metrics. Of a described
-/// linkage: its first metrics.
-std::string make_sets(const json& sweep, const jobs::ResultTable& results) {
+/// A set of equal parameters, with the metric over its replicates.
+struct ResultSet {
+  jobs::RowGroup group;
+  jobs::ReplicateStatistics metric;
+};
+
+/// All sets, those with the largest means first.
+std::vector<ResultSet> rank_sets(const ReportView& view) {
+  std::vector<std::size_t> columns;
+  for (const std::string& path : view.axes) columns.push_back(view.column(path));
+  std::vector<ResultSet> sets;
+  for (jobs::RowGroup& group : jobs::group_rows(view.results, columns)) {
+    const auto metric = statistics_of(view.results, group, view.metric_column);
+    sets.push_back({std::move(group), metric});
+  }
+  std::ranges::stable_sort(sets, std::ranges::greater(), [](const ResultSet& set) {
+    return set.metric.mean.value_or(-std::numeric_limits<double>::infinity());
+  });
+  return sets;
+}
+
+/// A row for each of the sets with the largest means: the metric over its replicates, and means of others.
+std::string make_sets(const ReportView& view) {
   constexpr std::array<std::string_view, 5> kMeans{
       "amplification", "peak_contact_force_n", "max_penetration_um", "impact_count", "peak_crank_torque_n_m"};
-  std::vector<std::string> headings = sweep.at("axes").get<std::vector<std::string>>();
-  std::vector<std::size_t> swept;
-  for (const std::string& path : headings) swept.push_back(jobs::find_column(results, path, ""));
-  const std::string metric = jobs::choose_metric(results, "");
-  std::vector<std::string> means = jobs::choose_metrics(results, kMeans);
-  std::erase(means, metric);
-  headings.insert(headings.end(), {"runs", metric + ", mean", "spread", "least", "largest"});
-  for (const std::string& mean : means) headings.push_back(mean + ", mean");
-  const auto groups = jobs::group_rows(results, swept);
+  std::vector<std::string> means = jobs::choose_metrics(view.results, kMeans);
+  std::erase(means, view.metric);
+  const std::vector<ResultSet> sets = rank_sets(view);
+  const bool repeated = std::ranges::any_of(sets, [](const ResultSet& set) { return set.metric.count > 1; });
+  std::vector<std::string> headings;
+  for (const std::string& path : view.axes) headings.push_back(title_of(path));
+  headings.push_back(title_of(view.metric));
+  if (repeated) headings.insert(headings.end(), {"Runs", "Spread", "Least", "Largest"});
+  for (const std::string& mean : means) headings.push_back(title_of(mean));
   std::vector<std::vector<json>> rows;
-  for (std::size_t g = 0; g < std::min(groups.size(), kMostSets); ++g) {
-    std::vector<json> cells = groups[g].values;
-    const auto peak = statistics_of(results, groups[g], metric);
-    cells.insert(cells.end(), {peak.count, value_or_null(peak.mean), value_or_null(peak.spread),
-                               value_or_null(peak.min), value_or_null(peak.max)});
+  for (std::size_t k = 0; k < std::min(sets.size(), kMostSets); ++k) {
+    const auto& [group, metric] = sets[k];
+    std::vector<json> cells = group.values;
+    cells.push_back(value_or_null(metric.mean));
+    if (repeated)
+      cells.insert(cells.end(), {metric.count, value_or_null(metric.spread), value_or_null(metric.min),
+                                 value_or_null(metric.max)});
     for (const std::string& mean : means)
-      cells.push_back(value_or_null(statistics_of(results, groups[g], mean).mean));
+      cells.push_back(value_or_null(mean_of(view.results, group.rows, view.column(mean))));
     rows.push_back(std::move(cells));
   }
-  const std::string more = groups.size() > kMostSets
-                               ? "<p class=\"quiet\">The first " + std::to_string(kMostSets) + " of " +
-                                     std::to_string(groups.size()) + " sets; all are in the CSV.</p>\n"
+  const std::string more = sets.size() > kMostSets
+                               ? "<p class=\"quiet\">The " + std::to_string(kMostSets) + " of " +
+                                     std::to_string(sets.size()) +
+                                     " settings with the largest means; the appendix (?rows=true) and the "
+                                     "CSV have all.</p>\n"
                                : "";
   return make_table(headings, rows) + more;
 }
 
-std::string make_analyses(const json& sweep, const jobs::ResultTable& results) {
-  const std::string metric = jobs::choose_metric(results, "");
+/// All jobs, with the metric and the usual others.
+std::string make_appendix(const ReportView& view) {
+  std::vector<std::string> columns{"job_id", "state"};
+  if (std::ranges::find(view.results.columns, "replicate") != view.results.columns.end())
+    columns.emplace_back("replicate");
+  columns.insert(columns.end(), view.axes.begin(), view.axes.end());
+  columns.push_back(view.metric);
+  std::vector<std::string> headings;
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) {
+    headings.push_back(column == "job_id" ? "Job" : title_of(column));
+    places.push_back(view.column(column));
+  }
+  std::vector<std::vector<json>> rows;
+  for (const auto& row : view.results.rows) {
+    std::vector<json> cells;
+    for (const std::size_t place : places) cells.push_back(row[place]);
+    rows.push_back(std::move(cells));
+  }
+  return make_table(headings, rows);
+}
+
+std::string make_analyses(const ReportView& view) {
   std::string html;
-  const auto add = [&](const std::string& title, const auto& calc) {
+  const auto add = [&](const std::string& title, const auto& calc, const std::vector<std::string>& left_out) {
     try {
-      const jobs::ResultTable table = calc(sweep, results, metric);
-      html += heading(title) + make_table(table.columns, table.rows);
+      const jobs::ResultTable table = calc(view.sweep, view.results, view.metric);
+      html += heading(title) + make_titled_table(table, left_out);
     } catch (const jobs::WrongState&) {  // the analysis does not apply to this sweep
     }
   };
-  add("Effect of flexibility", jobs::compare_couplers);
-  add("Sensitivity", jobs::calc_sensitivity);
+  add("Effect of flexibility", jobs::compare_couplers,
+      {"metric", "along", "rigid_spread", "rigid_min", "rigid_max", "flexible_spread", "flexible_min",
+       "flexible_max", "rigid_count", "flexible_count"});
+  add("Sensitivity", jobs::calc_sensitivity, {"metric"});
   return html;
 }
 
@@ -105,7 +181,7 @@ std::string make_provenance(const Provenance& provenance, std::size_t jobs) {
                                      std::to_string(provenance.jobs_examined) + " of " +
                                      std::to_string(jobs) + " jobs.</p>\n"
                                : "";
-  return make_table({"jobs", "version", "commit", "engine", "compiler", "host", "processor"}, rows) + some;
+  return make_table({"Jobs", "Version", "Commit", "Engine", "Compiler", "Host", "Processor"}, rows) + some;
 }
 
 }  // namespace
@@ -131,20 +207,26 @@ std::string make_command(const ordered_json& request) {
   return "curl -s -d '" + quoted + "' \"${RPSUP_URL:-http://127.0.0.1:8080}/v1/sweeps\"";
 }
 
-std::string make_report(const json& sweep, const jobs::ResultTable& results, const Provenance& provenance) {
+std::string make_report(const json& sweep, const jobs::ResultTable& results, const ReportQuery& query,
+                        const FailureCounts& failures, const Provenance& provenance) {
+  const ReportView view(sweep, results, query);
   const auto name = sweep.at("name").get<std::string>();
   const std::string title = name.empty() ? sweep.at("id").get<std::string>() : name;
   const ordered_json request = request_in_order(sweep);
-  const std::string figures = make_figures(sweep, results);
-  std::string body = "<h1>" + escape(title) + "</h1>\n" + make_summary(sweep);
+  const std::string figures = make_heat_maps(view) + make_figures(view);
+  std::string body = "<h1>" + escape(title) + "</h1>\n" + make_headlines(view, failures);
+  if (const std::string largest = make_largest(view); !largest.empty())
+    body += heading("Largest values") + largest;
+  body += heading("Sweep") + make_summary(sweep);
   if (!figures.empty()) body += heading("Figures") + figures;
-  body += heading("Results") + make_sets(sweep, results) + make_analyses(sweep, results);
+  body += heading("Results") + make_sets(view) + make_analyses(view);
   body += heading("Request") + "<pre>" + escape(to_text(request, 1)) + "</pre>\n";
   body += heading("Provenance") + make_provenance(provenance, results.rows.size());
   body += heading("Reproduction") +
           "<p>The command submits the sweep to the service at RPSUP_URL, by default on this machine; the "
           "same engine gives the same bytes.</p>\n<pre id=\"command\">" +
           escape(make_command(request)) + "</pre>\n";
+  if (query.appendix == Appendix::kRows) body += heading("Appendix: all jobs") + make_appendix(view);
   return make_page(title, body);
 }
 

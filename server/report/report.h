@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/results/result_table.h"
+#include "server/report/headlines.h"
+#include "server/report/report_view.h"
 
 namespace server::report {
 
@@ -16,11 +18,13 @@ struct Provenance {
   std::size_t jobs_examined = 0;       ///< fewer than all, of large sweeps
 };
 
-/// Report of a sweep as one self-contained page: request, figures, tables, provenance, and the command that
-/// repeats it.
+/// Report of a sweep as one self-contained page: headlines, largest values, figures, tables, request,
+/// provenance, and the command that repeats it.
 /// @param sweep    its resource
 /// @param results  all its rows
+/// @throws jobs::InvalidRequest for a metric or an axis that the sweep does not have
 [[nodiscard]] std::string make_report(const nlohmann::json& sweep, const jobs::ResultTable& results,
+                                      const ReportQuery& query, const FailureCounts& failures,
                                       const Provenance& provenance);
 
 /// A sweep's request with its axes, and those of its design, in the order in which they were given: points

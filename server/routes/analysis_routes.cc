@@ -2,8 +2,10 @@
 #include "server/routes/analysis_routes.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -176,6 +178,17 @@ report::Provenance find_provenance(const RequestContext& context, const jobs::Re
   return provenance;
 }
 
+report::FailureCounts count_failures(const RequestContext& context, const nlohmann::json& sweep) {
+  report::FailureCounts counts;
+  if (sweep.at("counts").at("failed") == 0) return counts;
+  const auto failed =
+      context.service.find_results(context.id, {.fields = "error_reason", .filters = {{"state", "failed"}}});
+  if (!failed) return counts;
+  for (const auto& row : failed->rows)
+    ++counts[row.front().is_string() ? row.front().get<std::string>() : std::string("unknown")];
+  return counts;
+}
+
 }  // namespace
 
 Response get_sensitivity(const RequestContext& context) {
@@ -246,11 +259,18 @@ Response get_lyapunov(const RequestContext& context) {
 }
 
 Response get_report(const RequestContext& context) {
-  Query query(context.request, {});
+  Query query(context.request, {"metric", "x", "rows"});
+  constexpr std::array<std::string_view, 2> kWords{"false", "true"};
+  const report::ReportQuery wanted{
+      .metric = query.text("metric").value_or(""),
+      .x = query.text("x").value_or(""),
+      .appendix = query.word("rows", kWords) == kWords.back() ? report::Appendix::kRows
+                                                              : report::Appendix::kNone};
   bool ended = false;
   std::string page = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
     ended = found.results.ended;
-    return report::make_report(found.sweep, found.results, find_provenance(context, found.results));
+    return report::make_report(found.sweep, found.results, wanted, count_failures(context, found.sweep),
+                               find_provenance(context, found.results));
   });
   return with_etag_if(ended, context.request,
                       {.status = 200, .content_type = "text/html; charset=utf-8", .body = std::move(page),

@@ -79,6 +79,10 @@ expect_text out "^$measured +- +- +- +-  bench.csv$"
 expect_code 0 "$rpsup" report "$id" --output report.html
 expect_text report.html '</html>'
 cmp report.html <(get "$url/v1/sweeps/$id/report")
+expect_code 0 "$rpsup" report "$id" --metric impact_count --rows --output counts.html
+expect_text counts.html 'Largest impact count'
+expect_text counts.html 'Appendix: all jobs'
+expect_code 2 "$rpsup" report "$id" --metric beauty --output counts.html
 expect_code 2 "$rpsup" report "$id" --output report.pdf
 expect_text err '^rpsup: --output report.pdf: the name must end in \.html$'
 expect_code 0 "$rpsup" open "$id" "$job" "$measured"
