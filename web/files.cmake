@@ -35,6 +35,10 @@ set(page_files
   form/fit_form.js
   form/fitted_measurements.js
   form/from_sweep.js
+  form/json_places.js
+  form/json_text.js
+  form/linkage_editor.js
+  form/linkage_words.js
   form/list_fields.js
   form/numbers.js
   form/optimisation_form.js
@@ -99,6 +103,7 @@ set(page_files
   scene/marks.js
   scene/player.js
   scene/poses.js
+  scene/preview.js
   scene/ranges.js
   scene/scene_card.js
   scene/shapes.js

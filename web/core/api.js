@@ -214,6 +214,14 @@ export async function findTrajectory(id, { channels, ...query }, signal) {
   return answer.columns;
 }
 
+/// Poses of the links of a linkage at t = 0 by their names, and the number of its degrees of freedom.
+/**
+ * @type {(parameters: any, signal: AbortSignal) =>
+ *   Promise<{ poses: Record<string, number[]>, degrees_of_freedom: number }>}
+ */
+export const findAssembly = (parameters, signal) => ask(addressOf("/v1/linkages/assembly"),
+  { method: "POST", body: { parameters }, signal });
+
 /// One of the linkages that the program brings along, as a set of parameters.
 /** @type {(name: string, signal: AbortSignal) => Promise<Api.Schemas["Parameters"]>} */
 export const exampleLinkage = (name, signal) => ask(addressOf(`/linkages/${name}.json`), { signal });

@@ -65,6 +65,14 @@ export function choice(label, options, value, onchange) {
   return h("label", { class: "choice" }, h("span", {}, label), select);
 }
 
+/// A small square of a colour, for legends.
+/** @param {string} colour */
+export function swatch(colour) {
+  const element = h("span", { class: "swatch", "aria-hidden": "true" });
+  element.style.backgroundColor = colour;
+  return element;
+}
+
 /// Resolves once the element has a width, which it has not before it stands in the page.
 /** @param {HTMLElement} element  @param {AbortSignal} signal */
 export async function laidOut(element, signal) {

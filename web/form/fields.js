@@ -4,6 +4,11 @@
 /// Parameters without a field, which are written as JSON.
 export const writtenAsJson = ["crank_drive", "rod_drive", "wear_depth_um", "keep"];
 
+/// Whether a parameter is of the RPSUP linkage alone. Beams of described linkages take the moduli of the job.
+/** @type {(path: string) => boolean} */
+export const isOfRpsup = (path) => /^((coupler|crank|rod|guide|cross)(_|$)|yoke_axis$|rigid_elements$|gravity_direction$|links\.)/
+  .test(path);
+
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {
   return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && !writtenAsJson.includes(key))

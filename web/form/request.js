@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what stands in the form to a request, and back.
-import { faultOf, isInside, writtenAsJson } from "/form/fields.js";
+import { faultOf, isInside, isOfRpsup, writtenAsJson } from "/form/fields.js";
+import { jsonText } from "/form/json_text.js";
 import { factorOf, readList, readNumber } from "/form/numbers.js";
 
 /// Entry of a field at first. The unit is that of entry, empty for the unit of the field.
@@ -16,7 +17,8 @@ export function buildRequest(fields, state) {
   const request = { name: state.name.trim() || undefined, parameters: {}, sweep: {} };
   for (const field of fields) {
     const entry = state.entries[field.path];
-    if (entry) addEntry(field, entry, request, (detail) => problems.push({ path: field.path, detail }));
+    const applies = !isDescription(state.linkage) || !isOfRpsup(field.path);
+    if (entry && applies) addEntry(field, entry, request, (detail) => problems.push({ path: field.path, detail }));
   }
   addJson("linkage", state.linkage, request.parameters, problems);
   const others = { described: {} };
@@ -34,6 +36,10 @@ export function buildRequest(fields, state) {
   if (!state.reuse) request.reuse = false;
   return { request: JSON.parse(JSON.stringify(request)), problems };
 }
+
+/// Whether a text describes a linkage, be it faulty.
+/** @type {(text: string) => boolean} */
+export const isDescription = (text) => text.trim().startsWith("{");
 
 function addReplicates(state, request, problems) {
   if (Number(state.replicates.count) > 1) {
@@ -155,7 +161,7 @@ export function readRequest(fields, request = {}) {
     .filter(([key]) => writtenAsJson.includes(key)));
   const inside = Object.fromEntries(Object.entries(request.sweep ?? {})
     .filter(([path]) => isInside(path)));
-  return { linkage: isObject(linkage) ? JSON.stringify(linkage, null, 1) : "", inside: Object.keys(inside)
+  return { linkage: isObject(linkage) ? jsonText(linkage) : "", inside: Object.keys(inside)
     .length > 0 ? JSON.stringify(inside, null, 1) : "",
     described: Object.keys(described).length > 0 ? JSON.stringify(described, null, 1) : "",
     name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,

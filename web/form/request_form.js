@@ -5,8 +5,10 @@ import { choice, freshId, h, notify } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { fieldRow } from "/form/field.js";
-import { pathOfPointer, writtenAsJson } from "/form/fields.js";
-import { emptyEntry } from "/form/request.js";
+import { isOfRpsup, pathOfPointer, writtenAsJson } from "/form/fields.js";
+import { jsonText } from "/form/json_text.js";
+import { LinkageEditor } from "/form/linkage_editor.js";
+import { emptyEntry, isDescription } from "/form/request.js";
 
 // Parameters that are shown at first; the others are one click away.
 const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution",
@@ -27,6 +29,12 @@ export class RequestForm {
   /** @type {{ path: string, detail: string }[]} */
   problems = [];
   isSending = false;
+  /** @type {AbortSignal} */
+  signal = new AbortController().signal;
+  /** @type {LinkageEditor | null} */
+  editor = null;
+  form = h("form", { class: "card", novalidate: true,
+    onsubmit: (event) => { event.preventDefault(); this.submit(); } });
   rest = h("div");
   count = h("p", { class: "big", role: "status" });
   cost = h("p", { class: "quiet small" });
@@ -66,9 +74,8 @@ export class RequestForm {
 
   /// The form beside its summary.
   columns(...parts) {
-    return h("div", { class: "columns" },
-      h("form", { class: "card", novalidate: true, onsubmit: (event) => { event.preventDefault(); this.submit(); } },
-        ...parts),
+    this.form.append(...parts.flat());
+    return h("div", { class: "columns" }, this.form,
       h("aside", { class: "card sticky", "aria-label": "Summary" }, ...this.summary()));
   }
 
@@ -76,6 +83,7 @@ export class RequestForm {
     this.state.entries[field.path] ??= emptyEntry();
     const row = fieldRow(field, this.state.entries[field.path], () => this.update());
     this.rows.set(field.path, row);
+    if (isOfRpsup(field.path)) row.element.dataset.of = "rpsup";
     return row.element;
   }
 
@@ -128,12 +136,22 @@ export class RequestForm {
   }
 
   otherLinkage() {
+    const change = (text) => { this.state.linkage = text; this.update(); };
+    this.editor = new LinkageEditor(this.state.linkage, change, (pointer) => this.goTo(pointer), this.signal);
+    this.rows.set("linkage", this.editor);
     return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
-      h("p", { class: "quiet small" },
-        "A custom linkage has its own bodies, joints and drives; the parameters of coupler, crank, rod and guide "
-          + "above apply to RPSUP only."),
-      ...this.json("linkage", "Linkage: JSON object of bodies and joints"),
+      h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives. The parameters of RPSUP's "
+        + "coupler, crank, rod and guide do not apply to it and are hidden."), this.editor.element,
       ...this.json("inside", "Axes inside the linkage: JSON object of lists and ranges"));
+  }
+
+  /// Puts the cursor into the field that a pointer of the service means.
+  /** @param {string} pointer */
+  goTo(pointer) {
+    const row = this.form.querySelector(`[data-path="${CSS.escape(this.rowOf(pointer))}"]`);
+    /** @type {HTMLElement | null | undefined} */
+    const input = row?.querySelector("input, select");
+    input?.focus();
   }
 
   /// A part of the request that is written as JSON.
@@ -183,12 +201,14 @@ export class RequestForm {
     this.problems = problems;
     for (const row of this.rows.values()) row.complain("");
     for (const { path, detail } of problems) this.rows.get(path)?.complain(detail);
+    this.form.classList.toggle("described", isDescription(this.state.linkage));
+    this.editor?.update(request.parameters);
     this.drawCount(request);
     this.drawSend();
     this.drawBlocked();
     this.faults.replaceChildren(...problems.filter(({ path }) => !this.rows.has(path))
       .map(({ path, detail }) => h("p", {}, `${path}: ${detail}`)));
-    this.shown.textContent = JSON.stringify(request, null, 1);
+    this.shown.textContent = jsonText(request);
     this.curl.textContent = "curl -d "
       + `'${JSON.stringify(request).replaceAll("'", "'\\''")}' ${location.origin}${this.path}`;
   }

@@ -25,6 +25,7 @@ export async function showStudyForm(main, Form, begin, query, signal) {
       : begin(query, signal),
     Form.load(signal)]);
   const form = new Form(fieldsOf(parameters), schemas, request, more);
+  form.signal = signal;
   main.replaceChildren(h("h1", {}, Form.title),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Load example"),
       h("a", { class: "button", href: routeTo(Form.route, "new", { empty: "1" }) }, "Empty form")),

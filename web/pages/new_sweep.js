@@ -47,6 +47,7 @@ class SweepForm extends RequestForm {
   /** @param {any[]} fields  @param {any} state  @param {string} example  @param {AbortSignal} signal */
   constructor(fields, state, example, signal) {
     super(fields, state);
+    this.signal = signal;
     this.example = example;
     this.defaults = Object.fromEntries(fields.map((field) => [field.path, field.default]));
     measureCosts(signal).then((costs) => { this.costs = costs; this.drawCount(this.request); }).catch(() => {});
@@ -58,7 +59,7 @@ class SweepForm extends RequestForm {
         "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form"),
         choice("Example linkage", [["", "choose …"], ...examples], this.example,
           (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
-      this.columns(this.nameField(), ...this.parameterFields(), this.linkage(), this.more())];
+      this.columns(this.nameField(), this.otherLinkage(), ...this.parameterFields(), this.described(), this.more())];
   }
 
   more() {

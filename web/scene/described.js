@@ -11,11 +11,14 @@ const springColour = "#7a8590";
 const zigzags = 16;
 
 /// The bodies with their colours, for the legend, and the colours of springs and loads.
-/** @param {Api.DescribedLinkage} linkage */
+/** @param {Api.DescribedLinkage} linkage  @returns {[string, string][]} */
 export function bodyColours(linkage) {
-  const named = Object.entries(coloursOf(linkage)).map(([name, colour]) => [name.replaceAll("_", " "), colour]);
-  return [...named, ...(linkage.springs ? [["springs", springColour]] : []),
-    ...(linkage.loads ? [["loads", loadColour]] : [])];
+  /** @type {(entry: [string, string]) => [string, string]} */
+  const spaced = ([name, colour]) => [name.replaceAll("_", " "), colour];
+  /** @type {(name: string, isThere: any, colour: string) => [string, string][]} */
+  const others = (name, isThere, colour) => (isThere ? [[name, colour]] : []);
+  return [...Object.entries(coloursOf(linkage)).map(spaced), ...others("springs", linkage.springs, springColour),
+    ...others("loads", linkage.loads, loadColour)];
 }
 
 /** @param {Api.DescribedLinkage} linkage  @returns {Record<string, string>} */
@@ -32,6 +35,19 @@ export function channelsOf(linkage, channels) {
   const journals = Object.keys(withCrosses(linkage).joints).map(journalOf);
   return { loads: loads.filter((name) => channels.includes(name)),
     journals: journals.filter((name) => channels.includes(name)) };
+}
+
+/// Ranges and values of the same channels for a picture of one position: loads at their full length, journals in the
+/// middle of their bearings.
+/** @param {Api.DescribedLinkage} linkage */
+export function channelsFor(linkage) {
+  const loads = Object.entries(linkage.loads ?? {}).map(([name, load]) => channelOf(name, load));
+  const journals = Object.entries(withCrosses(linkage).joints).filter(([, { clearance }]) => clearance)
+    .map(([name]) => journalOf(name));
+  /** @type {(names: string[], range: [number, number]) => import("/scene/ranges.js").Ranges} */
+  const all = (names, range) => Object.fromEntries(names.map((name) => [name, range]));
+  return { ranges: { ...all(loads, [0, 1]), ...all(journals, [0, 0]) },
+    values: Object.fromEntries(loads.map((name) => [name, 1])) };
 }
 
 /** @type {(joint: string) => string} */

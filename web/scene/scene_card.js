@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The linkage in 3-D, with what plays it.
 import { findTrajectory } from "/core/api.js";
-import { choice, h, part } from "/core/dom.js";
+import { choice, h, part, swatch } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
 import { DescribedLinkage, bodyColours, channelsOf, reachOf } from "/scene/described.js";
@@ -111,10 +111,4 @@ export function shownOf(parameters) {
   const up = upOf(parameters);
   if (typeof linkage === "object") return { reach: reachOf(linkage), up, places: null };
   return { reach: parameters.crank_length_m + parameters.coupler_length_m, up, places: placesOf(parameters) };
-}
-
-function swatch(colour) {
-  const element = h("span", { class: "swatch", "aria-hidden": "true" });
-  element.style.backgroundColor = colour;
-  return element;
 }
