@@ -29,6 +29,15 @@ set(page_files
   docs/docs.css
   docs/docs.js
   docs/index.html
+  figures/linkages/bricard.svg
+  figures/linkages/double_pendulum.svg
+  figures/linkages/four_bar.svg
+  figures/linkages/loose_guide.svg
+  figures/linkages/loose_socket.svg
+  figures/linkages/motor_press.svg
+  figures/linkages/rpsup.svg
+  figures/linkages/rsup.svg
+  figures/linkages/slider_crank.svg
   form/estimate.js
   form/field.js
   form/fields.js
@@ -38,6 +47,7 @@ set(page_files
   form/json_places.js
   form/json_text.js
   form/linkage_editor.js
+  form/linkage_gallery.js
   form/linkage_words.js
   form/list_fields.js
   form/numbers.js

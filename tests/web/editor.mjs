@@ -81,3 +81,26 @@ test("a linkage typed into an empty form is drawn, and what RPSUP alone has is n
   assert.ok(await page.locator(".preview").isHidden());
   await leave(page);
 });
+
+test("linkages are chosen by their pictures", async () => {
+  const page = await visit("#/new");
+  const gallery = page.getByRole("list", { name: "Linkages to begin with" });
+  const chosen = () => gallery.locator("[aria-current]").locator("strong").allTextContents();
+  await gallery.getByRole("link", { name: /^Four-bar/ }).waitFor();
+  assert.deepEqual(await chosen(), ["RPSUP"]);
+  assert.equal(await gallery.getByRole("link").count(), 10);
+  await page.waitForFunction(() => [...document.querySelectorAll(".gallery img")].every((image) => image.naturalWidth > 0));
+  await expectAccessible(page);
+  await picture(page, "gallery");
+  await gallery.getByRole("link", { name: /^Four-bar/ }).click();
+  await page.getByText(/flexible beam of \d+ elements/).waitFor();
+  assert.deepEqual(await chosen(), ["Four-bar"]);
+  await page.locator(".preview[data-bodies='3'] canvas").waitFor();
+  await page.getByRole("link", { name: "Load the paper's sweep" }).click();
+  await page.waitForFunction(() => document.querySelector("[aria-current] strong")?.textContent === "RPSUP");
+  await page.setViewportSize({ width: 390, height: 900 });
+  await expectNoSideways(page);
+  await page.emulateMedia({ colorScheme: "dark" });
+  await picture(page, "gallery_390");
+  await leave(page);
+});

@@ -213,7 +213,7 @@ test("a job shows its acceleration, its orbit and its linkage at one instant", a
 
 test("another linkage is taken, swept over a number inside it, and seen in motion", async () => {
   const page = await visit("#/new");
-  await page.getByLabel("Example linkage").selectOption("slider_crank");
+  await page.getByRole("link", { name: /^Planar slider-crank/ }).click();
   await page.waitForURL(/linkage=slider_crank/);
   await page.locator('[data-path="duration_s"]').getByRole("textbox").fill("0.03");
   await page.getByLabel(/^Axes inside the linkage/).fill('{"linkage.joints.crank_pin.clearance.clearance_mm": [0.05, 0.1]}');

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // A new sweep: a form made from the service's own description of its parameters.
 import { addressOf, exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
-import { choice, h } from "/core/dom.js";
+import { h } from "/core/dom.js";
 import { bytes, plural, span } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { estimate, measureCosts } from "/form/estimate.js";
 import { fieldsOf } from "/form/fields.js";
-import { buildRequest, countJobs, readRequest } from "/form/request.js";
+import { exampleNames, linkageGallery } from "/form/linkage_gallery.js";
+import { buildRequest, countJobs, isDescription, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
 // The sweep of the paper, as script/paper.json: every other parameter has the paper's value by default.
 const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12, 15],
   coupler: ["rigid", "flexible"] },
   replicates: { count: 5, only: { clearance_mm: [0.25, 0.5], crank_velocity_rad_s: [15] } } };
-// Linkages that the program brings along, as sets of parameters.
-const examples = [["rpsup", "RPSUP, described as data"], ["rsup", "RSUP, a spatial slider-crank"],
-  ["slider_crank", "planar slider-crank, clearance at both ends of the rod"],
-  ["four_bar", "four-bar with a flexible coupler"],
-  ["motor_press", "slider-crank press with motor, flywheel and load"],
-  ["loose_guide", "slider-crank whose slider has play in its guide"],
-  ["loose_socket", "pendulum on a ball with play in its socket"],
-  ["double_pendulum", "double pendulum, fitted to a measurement"], ["bricard", "Bricard's linkage"]];
-
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { query, signal }) {
   document.title = "RPSUP: new sweep";
   const fields = fieldsOf(await parameterSchema());
   const from = query.get("from");
-  const example = examples.find(([name]) => name === query.get("linkage"))?.[0];
+  const example = exampleNames.find((name) => name === query.get("linkage"));
   const request = from ? (await findSweep(from, signal))
     .request : example ? { name: example, parameters: await exampleLinkage(example, signal) }
     : query.get("template") === "paper" ? paper : {};
@@ -56,9 +48,8 @@ class SweepForm extends RequestForm {
   parts() {
     return [h("h1", {}, "New sweep"),
       h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) },
-        "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form"),
-        choice("Example linkage", [["", "choose …"], ...examples], this.example,
-          (name) => { location.hash = routeTo("new", "", name ? { linkage: name } : {}); })),
+        "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form")),
+      linkageGallery(this.example || (isDescription(this.state.linkage) ? null : "")),
       this.columns(this.nameField(), this.otherLinkage(), ...this.parameterFields(), this.described(), this.more())];
   }
 
