@@ -154,6 +154,7 @@ set(page_files
   study/span.js
   study/study_list.js
   study/study_view.js
+  study/sweep_labels.js
   study/sweep_pickers.js
   study/sweep_row.js
   study/sweep_view.js

@@ -28,7 +28,10 @@ declare namespace Api {
     Get<Path> extends { items: (infer Item)[] } ? Required<Item> : never;
 
   type State = Schemas["State"];
-  type Sweep = Get<"/v1/sweeps/{id}">;
+  /** Notes and tags of a sweep; one of an older program has none. */
+  type Labels = { notes?: string; tags?: string[] };
+  type Sweep = Get<"/v1/sweeps/{id}"> & Labels;
+  type ListedSweep = Listed<"/v1/sweeps"> & Labels;
   type Limit = Required<Schemas["Limit"]>;
   type Search = Omit<Get<"/v1/searches/{id}">, "limits"> & { limits: Limit[] };
   type WearStudy = Get<"/v1/wear-studies/{id}">;

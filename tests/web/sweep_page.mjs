@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
 import { drawn, force, metric, row, visitRows } from "./given.mjs";
-import { endVisits, expectAccessible, expectNoSideways, leave, picture, textOf } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, runSweep, textOf, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const axes = ["crank_velocity_rad_s", "clearance_mm", "coupler"];
@@ -172,4 +172,49 @@ test("six hundred jobs are read on a phone, in the dark and on a wide screen", a
     }
     await leave(page);
   }
+});
+
+test("a sweep is renamed, noted and tagged, and found by its tag", async () => {
+  const sweep = await runSweep({ name: "first name", parameters: { duration_s: 0.02, run_up_s: 0.01 }, sweep: { clearance_mm: [0.1, 0.2] } });
+  const page = await visit(`#/sweeps/${sweep.id}`);
+  await page.getByRole("button", { name: "Edit", exact: true }).click();
+  const dialog = page.getByRole("dialog", { name: "Name, notes and tags" });
+  assert.equal(await dialog.getByLabel("Name").inputValue(), "first name");
+  await dialog.getByLabel("Name").fill("not kept");
+  await page.keyboard.press("Escape");
+  await dialog.waitFor({ state: "hidden" });
+  assert.equal((await ask(`/v1/sweeps/${sweep.id}`)).name, "first name");
+  await page.getByRole("button", { name: "Edit", exact: true }).click();
+  await dialog.getByLabel("Tags").fill("x".repeat(5000));
+  await dialog.getByRole("button", { name: "Save" }).click();
+  await dialog.getByRole("alert").getByText(/\w/).waitFor();
+  assert.equal(await dialog.getByLabel("Tags").getAttribute("aria-invalid"), "true");
+  await dialog.getByLabel("Name").fill("second name");
+  await dialog.getByLabel("Notes").fill("worn bearing\nmeasured <b>twice</b>");
+  await dialog.getByLabel("Tags").fill("bench, worn, bench,");
+  await expectAccessible(page);
+  await picture(page, "edit_sweep");
+  await dialog.getByRole("button", { name: "Save" }).click();
+  await page.getByRole("heading", { name: "second name" }).waitFor();
+  await page.getByText("measured <b>twice</b>").waitFor();
+  assert.deepEqual(await page.locator(".badge.tag").allTextContents(), ["bench", "worn"]);
+  assert.equal(await page.getByRole("link", { name: "CSV" }).getAttribute("download"), "second name.csv");
+  const { name, notes, tags } = await ask(`/v1/sweeps/${sweep.id}`);
+  assert.deepEqual([name, notes, tags], ["second name", "worn bearing\nmeasured <b>twice</b>", ["bench", "worn"]]);
+  await expectAccessible(page);
+  await picture(page, "noted");
+  await page.goto(`${url}/#/`);
+  await page.getByLabel(/^Search \(name/).fill("BENCH");
+  await page.getByText("1 sweep, 0 under way").waitFor();
+  assert.deepEqual(await page.locator(".listing tbody .badge.tag").allTextContents(), ["bench", "worn"]);
+  await page.getByLabel(/^Search \(name/).fill("benches");
+  await page.getByText("No matching sweeps.").waitFor();
+  await page.getByLabel(/^Search \(name/).fill("second worn");
+  await page.getByText("1 sweep, 0 under way").waitFor();
+  await expectAccessible(page);
+  await picture(page, "tagged");
+  await page.setViewportSize({ width: 390, height: 900 });
+  await expectNoSideways(page);
+  await picture(page, "tagged_390");
+  await leave(page, /422/);
 });

@@ -86,6 +86,8 @@ export const submitSweep = (request) => ask(addressOf("/v1/sweeps"), { method: "
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
 /** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/retry">>} */
 export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
+/** @type {(id: string, labels: { name?: string, notes?: string, tags?: string[] }) => Promise<Api.Sweep>} */
+export const changeSweep = (id, labels) => ask(sweepPath(id), { method: "PATCH", body: labels });
 /** @type {(id: string) => Promise<null>} */
 export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
 /**

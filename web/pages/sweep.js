@@ -20,6 +20,7 @@ import { parallelChart, parallelNote } from "/study/parallel.js";
 import { scatterChart, scatterChoice } from "/study/scatter.js";
 import { Selection } from "/study/selection.js";
 import { drawPickers } from "/study/sweep_pickers.js";
+import { editLabels, tagBadges } from "/study/sweep_labels.js";
 import { studyBadge } from "/study/sweep_row.js";
 import { queryOf, viewFrom } from "/study/sweep_view.js";
 import { ResultTable } from "/study/table.js";
@@ -47,6 +48,10 @@ export class SweepPage {
   others = null;  // what lies beside it, thin and with hollow marks
   /** @type {(Chart | null)[]} */
   charts = [];
+  title = h("h1");
+  tags = h("p", { class: "small" });
+  notes = h("p", { class: "notes" });
+  csv = h("a", { class: "button" }, "CSV");
   status = h("p", { role: "status" });
   chosen = h("p", { class: "actions card" });
   pickers = h("p", { class: "actions" });
@@ -94,12 +99,11 @@ export class SweepPage {
   }
 
   parts() {
-    document.title = `RPSUP: ${this.sweep.name || this.sweep.id}`;
     this.drawHead();
     this.drawLinks();
     drawPickers(this);
     return [
-      h("div", { class: "head" }, h("div", {}, h("h1", {}, this.sweep.name || this.sweep.id, " ", studyBadge(this.sweep)), this.status, this.paper),
+      h("div", { class: "head" }, h("div", {}, this.title, this.status, this.tags, this.notes, this.paper),
         this.buttons), this.pickers, this.headlines, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0),
         this.card("Lines", this.lines, 1, { tools: [this.logs.element, this.curves.element] })),
@@ -254,7 +258,14 @@ export class SweepPage {
   }
 
   drawHead() {
-    const { counts, eta_s: eta } = this.sweep;
+    const { id, name, notes = "", counts, eta_s: eta } = this.sweep;
+    document.title = `RPSUP: ${name || id}`;
+    this.title.replaceChildren(name || id, " ", studyBadge(this.sweep));
+    this.csv.download = `${name || id}.csv`;
+    this.notes.textContent = notes;
+    this.notes.hidden = notes === "";
+    this.tags.replaceChildren(...tagBadges(this.sweep));
+    this.tags.hidden = !this.tags.hasChildNodes();
     const parts = Object.entries(counts).filter(([state, count]) => state !== "total" && count > 0)
       .map(([state, count]) => `${count.toLocaleString("en")} ${state}`);
     const left = isUnderWay(this.sweep) && eta !== null ? `; about ${span(eta)} left` : "";
@@ -265,7 +276,8 @@ export class SweepPage {
 
   /// Once: a button that was made anew would lose the focus, and a click that has begun.
   makeButtons() {
-    const { id, name } = this.sweep;
+    const { id } = this.sweep;
+    this.csv.href = resultsUrl(id, { format: "csv" });
     /** @type {(text: string, run: (id: string) => Promise<unknown>) => HTMLButtonElement} */
     const act = (text, run) =>
       h("button", { class: "passing", onclick: () => run(id).then(() => this.update())
@@ -273,10 +285,19 @@ export class SweepPage {
     this.cancel = act("Cancel", cancelSweep);
     this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => this.failures.doubt()));
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
-      h("a", { class: "button", href: resultsUrl(id, { format: "csv" }), download: `${name || id}.csv` }, "CSV"),
+      h("button", { onclick: () => this.edit() }, "Edit"), this.csv,
       h("a", { class: "button", href: routeTo("analyses", id) }, "Analysis"),
       h("a", { class: "button", href: routeTo("fits", "new", { sweep: id }) }, "Fit"), this.optimise,
       h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Duplicate"));
+  }
+
+  /// Changes name, notes and tags.
+  async edit() {
+    const changed = await editLabels(this.sweep);
+    if (!changed || this.signal.aborted) return;
+    const { name, notes, tags } = changed;
+    Object.assign(this.sweep, { name, notes, tags });
+    this.drawHead();
   }
 
   /// An optimisation begins with the metric that is looked at.

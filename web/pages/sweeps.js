@@ -27,7 +27,7 @@ const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whos
   + "parameters; the service computes them in the "
   + "background and keeps what comes out, and charts and tables fill as it does.";
 
-/** @typedef {Api.Listed<"/v1/sweeps">} Listing */
+/** @typedef {Api.ListedSweep} Listing */
 
 /// Keys by which sweeps can be ordered, with their headings.
 /** @type {Record<string, [string, (sweep: Listing) => string | number]>} */
@@ -45,7 +45,7 @@ export async function show(main, { query, signal }) {
 
 class SweepList {
   limit = pageSize;
-  /** @type {Api.Listed<"/v1/sweeps">[]} */
+  /** @type {Api.ListedSweep[]} */
   sweeps = [];
   /** @type {Map<string, ReturnType<typeof sweepRow>>} */
   rows = new Map();
@@ -95,7 +95,7 @@ class SweepList {
       { type: "search", value: this.search,
         oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
-      h("label", { class: "choice" }, h("span", {}, "Search (name, id, axis)"), search),
+      h("label", { class: "choice" }, h("span", {}, "Search (name, tag, notes, id, axis)"), search),
       choice("State", [["", "any"], ...states], this.state,
         (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       this.order.element, h("a", { class: "button main", href: "#/new" }, "New sweep"));
@@ -152,15 +152,16 @@ class SweepList {
     }
   }
 
-  /** @param {Api.Listed<"/v1/sweeps">} sweep */
+  /** @param {Api.ListedSweep} sweep */
   update(sweep) {
     this.sweeps = this.sweeps.map((known) => (known.id === sweep.id ? sweep : known));
     this.draw();
   }
 
-  /** @param {Api.Listed<"/v1/sweeps">} sweep */
+  /** @param {Api.ListedSweep} sweep */
   matches(sweep) {
-    const text = [sweep.name, sweep.id, ...sweep.axes, ...sweep.axes.map(nameOf)].join(" ").toLowerCase();
+    const text = [sweep.name, sweep.id, ...sweep.tags ?? [], sweep.notes, ...sweep.axes, ...sweep.axes.map(nameOf)]
+      .join(" ").toLowerCase();
     return this.search.toLowerCase().split(/\s+/).every((word) => text.includes(word));
   }
 

@@ -5,6 +5,7 @@ import { h, setSeen } from "/core/dom.js";
 import { moment, nameOf, number, span, unitOf } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
+import { tagBadges } from "/study/sweep_labels.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
 // of its cells
@@ -53,7 +54,7 @@ export function sweepRow(act, box, signal) {
   let drawn = "";
   let counted = -1;
 
-  /** @param {Api.Listed<"/v1/sweeps">} sweep */
+  /** @param {Api.ListedSweep} sweep */
   function update(sweep) {
     const text = JSON.stringify(sweep);
     if (text === drawn) return;
@@ -61,7 +62,7 @@ export function sweepRow(act, box, signal) {
     const name = sweep.name || sweep.id;
     cells.name.replaceChildren(h("div", { class: "line" }, h("a",
       { href: routeTo("sweeps", sweep.id), title: sweep.id },
-      sweep.name || shortOf(sweep.id)), " ", studyBadge(sweep)),
+      sweep.name || shortOf(sweep.id)), " ", studyBadge(sweep), ...tagBadges(sweep)),
     h("span", { class: "small quiet", title: sweep.axes.map(nameOf).join(" × ") },
       sweep.axes.map(nameOf).join(" × ")));
     state.className = sweep.state;
@@ -85,7 +86,7 @@ export function sweepRow(act, box, signal) {
     counted = sweep.counts.succeeded;
   }
 
-  /** @param {Api.Listed<"/v1/sweeps">} sweep */
+  /** @param {Api.ListedSweep} sweep */
   async function showPeaks(sweep) {
     /** @type {(peak: string, order: string) => Promise<Api.Row | undefined>} */
     const extreme = async (peak, order) => {
