@@ -31,6 +31,11 @@ declare namespace Api {
   /** Notes and tags of a sweep; one of an older program has none. */
   type Labels = { notes?: string; tags?: string[] };
   type Sweep = Get<"/v1/sweeps/{id}"> & Labels;
+  /** Size and cost of a sweep; null: unknown. */
+  type Estimate = {
+    jobs: number; stored_jobs: number; new_jobs: number; seconds: number | null; bytes: number | null;
+    measured_jobs: number; max_jobs: number; free_bytes: number;
+  };
   type ListedSweep = Listed<"/v1/sweeps"> & Labels;
   type Limit = Required<Schemas["Limit"]>;
   type Search = Omit<Get<"/v1/searches/{id}">, "limits"> & { limits: Limit[] };

@@ -40,7 +40,8 @@ plant study/fit_view.js 'points.lost > 0' 'points.missing > 0' "Property 'missin
 plant study/optimisation_answer.js 'best_repeats: repeats' 'repeats: repeats' "Property 'repeats' does not exist"
 plant measure/measurement_view.js 'run.sampling.rate_hz' 'run.sampling.rate' "Property 'rate' does not exist"
 plant analysis/surrogate.js 'surface.terms' 'surface.term' "Property 'term' does not exist"
-plant form/estimate.js 'limit: lookedAt' 'most: lookedAt' "'most' does not exist"
+plant form/estimate.js 'measured_jobs: measured' 'measured: measured' "Property 'measured' does not exist"
+plant form/from_sweep.js 'limit: 1' 'most: 1' "'most' does not exist"
 plant core/live.js 'sweep.counts.queued' 'sweep.count.queued' "Property 'count' does not exist"
 expect_code 2 types
 for error in "${planted[@]}"; do expect_text out "$error"; done

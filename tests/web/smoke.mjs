@@ -101,20 +101,27 @@ test("a request is used again whole", async () => {
   await leave(page, /422/);
 });
 
-test("a refusal stays when what earlier jobs have cost is told after it", async () => {
+test("a sweep is counted, and told what it costs and what is stored of it, before it is sent", async () => {
   await runSweep({ parameters: short });
-  const page = await visit("#/wear");
-  const asked = new Promise((resolve) => { page.route("**/v1/jobs?**", resolve); });
-  await page.goto(`${url}/#/new`);
-  const costs = await asked;
-  await page.locator('[data-path="clearance_mm"]').getByRole("textbox").fill("6");
-  await page.getByText("No computing time known yet").waitFor();
-  await page.getByRole("button", { name: "Submit" }).click();
-  const refusal = page.getByRole("alert").getByText("/parameters/clearance_mm:");
-  await refusal.waitFor();
-  await costs.continue();
-  await page.getByText("on one core").waitFor();
-  assert.ok(await refusal.isVisible());
+  const page = await visit("#/new");
+  const duration = page.locator('[data-path="duration_s"]').getByRole("textbox");
+  const clearance = page.locator('[data-path="clearance_mm"]').getByRole("textbox");
+  await page.getByText("1 job", { exact: true }).waitFor();
+  await duration.fill(String(short.duration_s));
+  await page.locator('[data-path="run_up_s"]').getByRole("textbox").fill(String(short.run_up_s));
+  await page.getByText("All results are stored already: nothing is to be computed.").waitFor();
+  await page.getByLabel("Clearance: kind of value", { exact: true }).selectOption("list");
+  await page.getByText("Number of jobs unknown").waitFor();
+  await clearance.fill("0.25; 0.3; 0.35");
+  await page.getByText("3 jobs", { exact: true }).waitFor();
+  await page.getByText(/^1 stored already, 2 to compute\. .* are free\. At most [\d,]+ at once\.$/).waitFor();
+  // What a submission would be refused for is told at its field.
+  await clearance.fill("0.25; 6");
+  await page.locator('[data-path="clearance_mm"] .trouble').getByText(/\w/).waitFor();
+  await page.getByRole("alert").getByText("/clearance_mm").waitFor();
+  await clearance.fill("0.25; 0.3");
+  await page.getByText("2 jobs", { exact: true }).waitFor();
+  assert.equal(await page.getByRole("alert").textContent(), "");
   await leave(page, /422/);
 });
 

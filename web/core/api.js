@@ -76,12 +76,14 @@ export const findHealth = (signal) => ask(addressOf("/healthz"), { signal });
 export const listSweeps = (query, signal) => ask(withQuery(addressOf("/v1/sweeps"), query), { signal });
 /** @type {(signal: AbortSignal) => Promise<Api.Get<"/v1/executors">>} */
 export const listExecutors = (signal) => ask(addressOf("/v1/executors"), { signal });
-/** @type {(query: Api.Query<"/v1/jobs">, signal: AbortSignal) => Promise<Api.Page<"/v1/jobs">>} */
-export const listJobs = (query, signal) => ask(withQuery(addressOf("/v1/jobs"), query), { signal });
-/** @type {(id: string, signal?: AbortSignal) => Promise<Api.Get<"/v1/sweeps/{id}">>} */
+/** @type {(id: string, signal?: AbortSignal) => Promise<Api.Sweep>} */
 export const findSweep = (id, signal) => ask(sweepPath(id), { signal });
-/** @type {(request: Api.Body<"/v1/sweeps">) => Promise<Api.Post<"/v1/sweeps">>} */
+/** @type {(request: Api.Body<"/v1/sweeps">) => Promise<Api.Sweep>} */
 export const submitSweep = (request) => ask(addressOf("/v1/sweeps"), { method: "POST", body: request });
+/// Number and cost of the jobs of a sweep that is not submitted. @throws what a submission would
+/** @type {(request: Api.Body<"/v1/sweeps">, signal: AbortSignal) => Promise<Api.Estimate>} */
+export const estimateSweep = (request, signal) => ask(addressOf("/v1/sweeps?dry_run=true"),
+  { method: "POST", body: request, signal });
 /** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/cancel">>} */
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
 /** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/retry">>} */

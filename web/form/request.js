@@ -175,29 +175,17 @@ function entryOf(field, values, mode) {
     : { ...emptyEntry(), mode, text: values.join(", ") };
 }
 
-/// Number of jobs of a request.
-export function countJobs(request) {
-  const axes = Object.entries(request.sweep ?? {});
-  const { count = 1, only = {} } = request.replicates ?? {};
-  const times = countPoints(request.design) * (request.cases?.length ?? 1);
-  const sets = times * product(axes.map(([, axis]) => sizeOf(axis)));
-  const replicated = times * product(
+/// Number of jobs of axes and replicates.
+/** @param {any} request */
+export function countJobs({ sweep = {}, replicates }) {
+  const axes = Object.entries(sweep);
+  const { count = 1, only = {} } = replicates ?? {};
+  const replicated = product(
     axes.map(([path, axis]) => (path in only && Array.isArray(axis) ? axis.filter((value) => only[path].includes(value))
       .length : sizeOf(axis))));
-  return sets + (count - 1) * replicated;
+  return product(axes.map(([, axis]) => sizeOf(axis))) + (count - 1) * replicated;
 }
 
 const product = (sizes) => sizes.reduce((all, size) => all * size, 1);
 
 const sizeOf = (axis) => (Array.isArray(axis) ? axis.length : axis.count);
-
-/// Number of points of a design; the service decides in the end.
-function countPoints(design) {
-  if (!design) return 1;
-  const dimensions = Object.keys(design.over).length;
-  if (design.type === "morris") return design.trajectories * (dimensions + 1);
-  if (design.type === "saltelli") return design.count * (dimensions + 2);
-  if (design.count !== undefined) return design.count;
-  const sizes = Object.values(design.over).map(sizeOf);
-  return design.type === "zip" ? sizes[0] : 1 + sizes.reduce((sum, size) => sum + size, 0);
-}

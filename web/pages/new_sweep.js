@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A new sweep: a form made from the service's own description of its parameters.
-import { addressOf, exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
+import { addressOf, estimateSweep, exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
 import { h } from "/core/dom.js";
-import { bytes, plural, span } from "/core/format.js";
+import { plural } from "/core/format.js";
+import { latest, settled } from "/core/live.js";
 import { routeTo } from "/core/route.js";
-import { estimate, measureCosts } from "/form/estimate.js";
+import { costWords } from "/form/estimate.js";
 import { fieldsOf } from "/form/fields.js";
 import { exampleNames, linkageGallery } from "/form/linkage_gallery.js";
-import { buildRequest, countJobs, isDescription, readRequest } from "/form/request.js";
+import { buildRequest, isDescription, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
+
+const settleMs = 350;
+const counting = "Counting …";
 
 // The sweep of the paper, as script/paper.json: every other parameter has the paper's value by default.
 const paper = { name: "paper", sweep: { clearance_mm: [0, 0.25, 0.5], crank_velocity_rad_s: [5, 10, 12, 15],
@@ -33,16 +37,14 @@ class SweepForm extends RequestForm {
   route = "sweeps";
   ask = submitSweep;
 
-  /** @type {Awaited<ReturnType<typeof measureCosts>>} */
-  costs = new Map();
-
   /** @param {any[]} fields  @param {any} state  @param {string} example  @param {AbortSignal} signal */
   constructor(fields, state, example, signal) {
     super(fields, state);
     this.signal = signal;
     this.example = example;
-    this.defaults = Object.fromEntries(fields.map((field) => [field.path, field.default]));
-    measureCosts(signal).then((costs) => { this.costs = costs; this.drawCount(this.request); }).catch(() => {});
+    this.count.textContent = counting;
+    this.estimate = latest((current) => this.#estimate(current), signal);
+    this.estimateSoon = settled(() => signal.aborted || this.estimate(), settleMs);
   }
 
   parts() {
@@ -67,18 +69,28 @@ class SweepForm extends RequestForm {
     return buildRequest(this.fields, this.state);
   }
 
-  drawCount(request) {
-    const jobs = countJobs(request);
-    this.count.textContent = plural(jobs, "job");
-    this.cost.textContent = this.costText(jobs);
+  /// Counts the jobs of a request that can be sent. The service counts, estimates, and finds what it would refuse.
+  drawCount() {
+    if (this.problems.length === 0) this.estimateSoon();
+    else this.#tell("Number of jobs unknown", "");
   }
 
-  costText(jobs) {
-    const cost = estimate(this.request, this.defaults, jobs, this.costs);
-    const store = `the store grows by about ${bytes(cost.bytes)}`;
-    if (cost.unknown.length > 0) return `No computing time known yet for: ${cost.unknown.join("; ")}. For new `
-      + `results ${store}.`;
-    return `Computing time about ${span(cost.seconds)} on one core, judged by earlier jobs; ${store}. Stored results `
-      + `cost nothing.`;
+  /** @param {AbortSignal} current */
+  async #estimate(current) {
+    if (this.problems.length > 0) return;
+    try {
+      const estimate = await estimateSweep(this.request, current);
+      if (this.problems.length === 0) this.#tell(plural(estimate.jobs, "job"), costWords(estimate));
+    } catch (error) {
+      if (error.name === "AbortError") throw error;
+      if (this.isSending || this.problems.length > 0) return;
+      this.#tell("Number of jobs unknown", "");
+      this.refuse(error);
+    }
+  }
+
+  #tell(count, cost) {
+    this.count.textContent = count;
+    this.cost.textContent = cost;
   }
 }
