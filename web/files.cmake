@@ -88,10 +88,13 @@ set(page_files
   run/captioned.js
   run/crosses.js
   run/described.js
+  run/envelopes.js
   run/facts.js
+  run/finer.js
   run/fingers.js
   run/ideal.js
   run/labels.js
+  run/levels.js
   run/measured.js
   run/measurement_picker.js
   run/orbit.js
@@ -106,8 +109,10 @@ set(page_files
   run/time_bar.js
   run/time_plot.js
   run/time_window.js
+  scene/arrow.js
   scene/described.js
   scene/geometry.js
+  scene/joint_force.js
   scene/linkage.js
   scene/loads.js
   scene/marks.js

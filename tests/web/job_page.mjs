@@ -413,3 +413,69 @@ test("fingers move and zoom the plots", { timeout: 2 * minute }, async () => {
   await touch("touchEnd", []);
   await leave(page);
 });
+
+test("plots of loads reach up to their peaks, which samples miss", async () => {
+  const { id, metrics } = await computedJob({ clearance_mm: 0.5 });
+  const { columns } = await ask(`/v1/jobs/${id}/trajectory?channels=t_s,contact_force_n`);
+  const peak = metrics.peak_contact_force_n;
+  assert.ok(Math.max(...columns.contact_force_n) < peak, "else the test shows nothing");
+  const page = await visit(`#/jobs/${id}`);
+  const card = page.locator("section.card").filter({ has: page.getByRole("heading", { name: "Contact force", exact: true }) });
+  await card.locator(`.uplot[data-levels="${peak}"]`).waitFor();
+  await card.getByText("dotted lines stand at the peaks").waitFor();
+  // Its drives have both signs.
+  const drives = page.locator("section.card").filter({ has: page.getByRole("heading", { name: "Drive torque and force" }) });
+  const levels = (await drives.locator(".uplot[data-levels]").getAttribute("data-levels")).split(" ").map(Number);
+  assert.deepEqual(levels, [metrics.peak_crank_torque_n_m, metrics.peak_rod_force_n].flatMap((each) => [each, -each]));
+  // The acceleration has its extremes between the samples, so that it needs no line.
+  assert.equal(await page.locator(".uplot[data-levels='']").first().count(), 1);
+  await card.scrollIntoViewIfNeeded();
+  await picture(page, "peaks");
+  await leave(page);
+});
+
+test("a stretch is computed finely, and opens where it was looked at", async () => {
+  const { id, parameters } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  const button = page.getByRole("button", { name: /^Compute finely/ });
+  await button.waitFor();
+  await page.goto(`${url}/#/jobs/${id}?from=0.2&to=0.25`);
+  await page.getByText("0.2 s to 0.25 s").waitFor();
+  await page.getByRole("button", { name: "Compute finely, at 100 kHz" }).click();
+  await page.getByText(/Finer run: job ….*, succeeded/).waitFor();
+  await expectAccessible(page);
+  await picture(page, "finer");
+  await page.getByText("Finer run").getByRole("link").click();
+  await page.waitForURL((to) => !to.hash.includes(id));
+  await page.getByText("0.2 s to 0.25 s").waitFor();
+  const finer = await ask(`/v1/jobs/${page.url().match(/job_\w+/)[0]}`);
+  assert.deepEqual([finer.parameters.duration_s, finer.parameters.output_rate_hz], [0.25, 100000]);
+  assert.deepEqual({ ...finer.parameters, duration_s: 0, output_rate_hz: 0 }, { ...parameters, duration_s: 0, output_rate_hz: 0 });
+  assert.ok(await page.getByRole("button", { name: "Compute finely", exact: true }).isDisabled());
+  await leave(page);
+});
+
+test("the force on the journal is an arrow, whose scale the legend tells", async () => {
+  const { id, metrics, parameters } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  const canvas = page.locator("canvas.scene[data-force]");
+  await canvas.waitFor();
+  const scale = page.getByText(/^force on the journal: as long as the crank at [\d.]+ N$/);
+  const told = async () => Number((await scale.textContent()).match(/at ([\d.]+) N/)[1]);
+  const first = await told();
+  assert.ok(Math.abs(first * 1.5 / metrics.peak_joint_reaction_n - 1) < 0.01, `${first} N`);
+  await page.getByLabel("Force scale").selectOption("10");
+  assert.ok(Math.abs(await told() * 10 / first - 1) < 0.01);
+  // What is drawn is the force at the instant.
+  const columns = ["reaction_x_n", "reaction_y_n", "reaction_z_n"];
+  const found = await ask(`/v1/jobs/${id}/trajectory?channels=t_s,${columns}`);
+  const row = 250;
+  const force = Math.hypot(...columns.map((name) => found.columns[name][row]));
+  await page.goto(`${url}/#/jobs/${id}?t=${found.columns.t_s[row]}`);
+  await page.waitForFunction((wanted) => Math.abs(document.querySelector("canvas.scene")?.dataset.force / wanted - 1) < 1e-3, force);
+  assert.equal(parameters.clearance_mm, 0.25);
+  await page.getByLabel("Force scale").selectOption("10");
+  await picture(page, "force_arrow");
+  await expectAccessible(page);
+  await leave(page);
+});

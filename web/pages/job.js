@@ -7,6 +7,7 @@ import { pause, persist, seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, titleOfLinkage } from "/run/described.js";
+import { withEnvelope } from "/run/envelopes.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
 import { motionCard } from "/analysis/motion.js";
@@ -26,8 +27,7 @@ import { sceneCard } from "/scene/scene_card.js";
 const formats = ["csv", "json", "npz"];
 /** @type {(state: Api.State) => boolean} */
 const isWaiting = (state) => state === "queued" || state === "running";
-const sliderAcceleration = { channel: "slider_acceleration_m_s2",
-  envelope: ["slider_acceleration_min_m_s2", "slider_acceleration_max_m_s2"] };
+const sliderAcceleration = "slider_acceleration_m_s2";
 const energies = ["kinetic_energy_j", "potential_energy_j", "drive_work_j"];
 const pollMs = 1000;
 const sweepPolls = 5;  // its sweep is asked for with every fifth
@@ -53,7 +53,10 @@ class JobPage {
   main = h("div");
   extra = h("div");
   /** @type {Pick<Trace, "channel" | "envelope">} */
-  acceleration = sliderAcceleration;
+  acceleration = { channel: sliderAcceleration };
+  /// Channels of the run, without the poses.
+  /** @type {string[]} */
+  columns = [];
   /** @type {AbortController | undefined} */
   mainLife;
   /// Curves of measurements, each in the plot of its channel.
@@ -154,8 +157,9 @@ class JobPage {
     this.measured = measured;
     // The poses are for drawing.
     const columns = all.filter((name) => name !== "t_s" && !name.startsWith("pose_"));
+    this.columns = columns;
     const described = isDescribed(this.job);
-    this.acceleration = described ? { channel: mainAcceleration(columns) } : sliderAcceleration;
+    this.acceleration = withEnvelope(described ? mainAcceleration(columns) : sliderAcceleration, columns);
     const joints = clearanceJoints(this.job, columns);
     const drives = described ? driveChannels(columns) : ["crank_torque_n_m", "rod_force_n"];
     const inCards = [this.acceleration.channel, ...joints.map(({ prefix }) => `${prefix}contact_force_n`),
@@ -188,8 +192,9 @@ class JobPage {
    * @param {Partial<Parameters<typeof plotCard>[1]>} more
    */
   card(title, channels, more = {}) {
-    return plotCard(title, { traces: [...tracesOf(this.jobs, channels), ...this.measuredOf(channels)],
-      note: peakNote(this.jobs, channels),
+    const shown = channels.map((channel) => withEnvelope(channel, this.columns));
+    return plotCard(title, { traces: [...tracesOf(this.jobs, shown), ...this.measuredOf(channels)],
+      note: peakNote(this.jobs, channels, shown.some(({ envelope }) => !envelope)),
       times: this.times, height: 220, signal: this.signal, ...more });
   }
 
@@ -206,7 +211,7 @@ class JobPage {
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
     this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration",
       { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
-        ...this.measuredOf([acceleration.channel])], note: peakNote(this.jobs, [acceleration.channel]),
+        ...this.measuredOf([acceleration.channel])], note: peakNote(this.jobs, [acceleration.channel], !acceleration.envelope),
         times: this.times, height: 320, signal, tools }));
   }
 

@@ -6,11 +6,24 @@ import { labelsOf } from "/run/labels.js";
 const unitOfAcceleration = /_((m|rad)_s2)$/;
 const digits = 5;  // as in the table of the metrics
 
+/// Metrics that may be the peak of a channel. Accelerations of a described linkage are called so in the metrics alone.
+/** @type {(channel: string) => string[]} */
+const namesOf = (channel) => [`peak_${channel}`, `peak_${channel.replace(unitOfAcceleration, "_acceleration_$1")}`];
+
+/// The metrics' peak of a channel in the whole run; undefined if they have none.
+/** @param {Api.Job} job  @param {string} channel  @returns {number | undefined} */
+export function peakLevel({ metrics }, channel) {
+  /** @type {Record<string, unknown>} */
+  const known = metrics ?? {};
+  const value = [...namesOf(channel).map(wholeRunOf), ...namesOf(channel)].map((name) => known[name])
+    .find((each) => typeof each === "number");
+  return typeof value === "number" ? value : undefined;
+}
+
 /// The metrics' peak of a channel in words; null if they have none.
 /** @param {Api.Job} job  @param {string} channel */
 function peakOf({ metrics }, channel) {
-  // Accelerations of a described linkage are called so in the metrics alone.
-  const names = [`peak_${channel}`, `peak_${channel.replace(unitOfAcceleration, "_acceleration_$1")}`];
+  const names = namesOf(channel);
   const isKnown = (name) => typeof metrics?.[name] === "number";
   const textOf = (name) => `${number(metrics?.[name], digits)} ${unitOf(channel)}`;
   const key = names.find(isKnown);
@@ -31,8 +44,8 @@ function steadyText(metrics, key) {
 }
 
 /// The peaks of what a plot shows, for below it; empty if the metrics have none.
-/** @param {Api.Job[]} jobs  @param {string[]} channels */
-export function peakNote(jobs, channels) {
+/** @param {Api.Job[]} jobs  @param {string[]} channels  @param {boolean} hasLines */
+export function peakNote(jobs, channels, hasLines = true) {
   const labels = labelsOf(jobs);
   const nameFor = (channel, j) => [channels.length > 1 && nameOf(channel), jobs.length > 1 && labels[j]].filter(Boolean)
     .join(", ");
@@ -42,5 +55,5 @@ export function peakNote(jobs, channels) {
   const rates = [...new Set(jobs.map((job) => job.parameters.output_rate_hz))].map((rate) => number(rate, 6))
     .join(" and ");
   return `Peak magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. Peaks include values between `
-    + `the samples, which the curve joins at ${rates} Hz.`;
+    + `the samples, which the curve joins at ${rates} Hz${hasLines ? "; dotted lines stand at the peaks" : ""}.`;
 }

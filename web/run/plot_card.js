@@ -6,6 +6,7 @@ import { nameOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { labelsOf } from "/run/labels.js";
+import { peakLevel } from "/run/peaks.js";
 import { timePlot } from "/run/time_plot.js";
 
 /// @param note   what stands below the plot; empty: nothing
@@ -41,8 +42,9 @@ export function tracesOf(jobs, channels) {
   const labels = labelsOf(jobs);
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;
+    const level = envelope ? undefined : peakLevel(job, channel);
     const name = channels.length > 1 || !several ? nameOf(channel) : "";
-    return { job: job.id, channel, envelope, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
+    return { job: job.id, channel, envelope, level, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
       colour: () => lineColour(j * channels.length + c) };
   }));
 }

@@ -2,20 +2,24 @@
 // Options of a plot over time for uPlot: look, and response to the pointer.
 import { number, unitOf } from "/core/format.js";
 import { colour, isDark } from "/core/theme.js";
+import { levelsHook, rangeWith } from "/run/levels.js";
 import { columnsOf } from "/run/plot_data.js";
 
+/// @param uPlot  the library
 /**
+ * @param {any} uPlot
  * @param {Trace[]} traces
  * @param {TimeWindow} times
  * @param {number} width
  * @param {number} height
  * @returns {any}
  */
-export function plotOptions(traces, times, width, height) {
+export function plotOptions(uPlot, traces, times, width, height) {
   const units = [...new Set(traces.map((trace) => unitOf(trace.channel) || "1"))];
   return {
     width, height,
-    scales: { x: { time: false, range: () => [times.from, times.to] } },
+    scales: { x: { time: false, range: () => [times.from, times.to] }, ...Object.fromEntries(units.map((unit) =>
+      [unit, { range: rangeWith(traces, times, unit, uPlot.rangeNum) }])) },
     series: [{ label: "t [s]", value: (_, value) => number(value, 6) }, ...traces.flatMap(seriesOf)],
     bands: bandsOf(traces),
     axes: [axis("x", "t [s]", 3), ...units.map((unit, index) => axis(unit, unit, index === 0 ? 3 : 1))],
@@ -25,6 +29,7 @@ export function plotOptions(traces, times, width, height) {
       mousedown: (_, __, handle) => (event) => { if (!event.shiftKey) handle(event); return null; },
     } },
     hooks: {
+      draw: [levelsHook(traces)],
       setSelect: [(plot) => zoomToSelection(plot, times)],
       setCursor: [(plot) =>
         { if (plot.cursor.left >= 0 && plot.cursor.event) times.pointAt(plot.posToVal(plot.cursor.left, "x")); }],

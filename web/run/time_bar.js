@@ -2,6 +2,7 @@
 // Sets the stretch of time that all plots show.
 import { h } from "/core/dom.js";
 import { number } from "/core/format.js";
+import { finerButton } from "/run/finer.js";
 import { overview } from "/run/overview.js";
 
 const aroundPeak = 0.02;
@@ -34,14 +35,16 @@ export function timeBar(times, job, envelope, signal) {
   };
   times.addEventListener("change", draw, { signal });
   draw();
+  const [finely, told] = finerButton(times, job, signal);
   const { run_up_s: runUp } = job.parameters;
   const peak = job.metrics?.peak_slider_acceleration_time_s;
   const jump = (name, go) => h("button", { onclick: go }, name);
   return h("section", { class: "card tight", "aria-label": "Time" },
     h("p", { class: "actions" }, h("strong", {}, "Time"), jump("Whole run", () => times.reset()),
       runUp < times.end ? jump("Steady window", () => times.set(runUp, times.end)) : null,
-      // last: its length changes
-      typeof peak === "number" ? jump("Peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null, text),
+      typeof peak === "number" ? jump("Peak", () => times.set(peak - aroundPeak, peak + aroundPeak)) : null,
+      // last: their length changes
+      finely, text, told),
     overview(job, envelope, times, signal),
     h("div", { class: "columns even" }, h("label", { class: "small quiet" }, "from", from),
       h("label", { class: "small quiet" }, "to", to)),

@@ -6,7 +6,9 @@ import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
 import { DescribedLinkage, bodyColours, channelsOf, reachOf } from "/scene/described.js";
 import { placesOf } from "/scene/geometry.js";
+import { JointForce, forceChannels, forceFactors, largestForce } from "/scene/joint_force.js";
 import { Linkage, linkColours } from "/scene/linkage.js";
+import { loadColour } from "/scene/loads.js";
 import { Player, impactsOf } from "/scene/player.js";
 import { Poses, linksOf } from "/scene/poses.js";
 import { rangesOf } from "/scene/ranges.js";
@@ -26,7 +28,9 @@ export function sceneCard(job, channels, times, signal) {
   const described = typeof given === "object" ? given : null;
   const hasClearance = !described && job.parameters.clearance_mm > 0;
   const isFlexible = ["coupler", "crank", "rod", "cross"].some((link) => job.parameters[link] === "flexible");
-  const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1 };
+  const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1, force: 1 };
+  const hasForce = hasClearance && forceChannels.every((name) => channels.includes(name));
+  const scale = h("span");
   const canvas = h("canvas",
     { class: "scene", role: "img", tabindex: 0,
       "aria-label": "The linkage in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
@@ -47,7 +51,8 @@ export function sceneCard(job, channels, times, signal) {
 
   async function start() {
     const links = linksOf(channels);
-    const { loads, journals } = described ? channelsOf(described, channels) : { loads: [], journals: [] };
+    const { loads, journals } = described ? channelsOf(described, channels)
+      : { loads: hasForce ? forceChannels : [], journals: [] };
     const [libraries, ranges] = await Promise.all([loadThree(), rangesOf(job, [...loads, ...journals], signal)]);
     if (signal.aborted) return;
     const { parameters } = job;
@@ -55,13 +60,20 @@ export function sceneCard(job, channels, times, signal) {
       : new Linkage(libraries.THREE, parameters, links);
     const stage = new Stage(libraries, canvas, shownOf(parameters), signal);
     stage.scene.add(linkage.group);
+    const force = hasForce && linkage instanceof Linkage ? new JointForce(libraries.THREE, largestForce(job, ranges),
+      parameters.crank_length_m, 0.6 * linkage.measures.crank.radius) : null;
+    if (force) stage.scene.add(force.arrow.object);
     const poses = new Poses(job, { links, others: loads },
       (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
     draw = () => {
       const shown = poses.at(times.instant, player.speed);
       if (!shown) return;
       if (linkage instanceof Linkage) linkage.place(shown.frames, drawn);
-      else linkage.place(shown.frames, shown.values);
+      if (linkage instanceof Linkage && force) {
+        canvas.dataset.force = String(force.place(linkage.joint, shown.values, drawn.force));
+        scale.textContent = force.scaleWords(drawn.force);
+      }
+      if (linkage instanceof DescribedLinkage) linkage.place(shown.frames, shown.values);
       canvas.dataset.instant = String(times.instant);
       stage.request();
     };
@@ -95,10 +107,12 @@ export function sceneCard(job, channels, times, signal) {
     h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]),
       String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
       hasClearance ? enlarge("Clearance scale", "clearance") : null,
+      hasForce ? enlarge("Force scale", "force", forceFactors) : null,
       isFlexible ? enlarge("Deflection scale", "bend", bendFactors) : null,
       hasClearance ? h("label", { class: "small" }, slow, " slow motion at impacts") : null),
     h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours)
-      .map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`))), status);
+      .map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`)),
+      hasForce ? h("span", {}, swatch(loadColour), " ", scale) : null), status);
 }
 
 /// Size, upward direction and points of a linkage, for the stage.
