@@ -28,15 +28,12 @@ declare namespace Api {
     Get<Path> extends { items: (infer Item)[] } ? Required<Item> : never;
 
   type State = Schemas["State"];
-  /** Notes and tags of a sweep; one of an older program has none. */
-  type Labels = { notes?: string; tags?: string[] };
-  type Sweep = Get<"/v1/sweeps/{id}"> & Labels;
+  type Sweep = Get<"/v1/sweeps/{id}">;
+  type ListedSweep = Listed<"/v1/sweeps">;
+  /** Notes and tags; a sweep of an older program has none. */
+  type Labels = Partial<Pick<Sweep, "notes" | "tags">>;
   /** Size and cost of a sweep; null: unknown. */
-  type Estimate = {
-    jobs: number; stored_jobs: number; new_jobs: number; seconds: number | null; bytes: number | null;
-    measured_jobs: number; max_jobs: number; free_bytes: number;
-  };
-  type ListedSweep = Listed<"/v1/sweeps"> & Labels;
+  type Estimate = Required<Schemas["SweepEstimate"]>;
   type Limit = Required<Schemas["Limit"]>;
   type Search = Omit<Get<"/v1/searches/{id}">, "limits"> & { limits: Limit[] };
   type WearStudy = Get<"/v1/wear-studies/{id}">;

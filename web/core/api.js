@@ -88,7 +88,7 @@ export const estimateSweep = (request, signal) => ask(addressOf("/v1/sweeps?dry_
 export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POST" });
 /** @type {(id: string) => Promise<Api.Post<"/v1/sweeps/{id}/retry">>} */
 export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
-/** @type {(id: string, labels: { name?: string, notes?: string, tags?: string[] }) => Promise<Api.Sweep>} */
+/** @type {(id: string, labels: Api.Schemas["SweepDescription"]) => Promise<Api.Sweep>} */
 export const changeSweep = (id, labels) => ask(sweepPath(id), { method: "PATCH", body: labels });
 /** @type {(id: string) => Promise<null>} */
 export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
@@ -219,10 +219,7 @@ export async function findTrajectory(id, { channels, ...query }, signal) {
 }
 
 /// Poses of the links of a linkage at t = 0 by their names, and the number of its degrees of freedom.
-/**
- * @type {(parameters: any, signal: AbortSignal) =>
- *   Promise<{ poses: Record<string, number[]>, degrees_of_freedom: number }>}
- */
+/** @type {(parameters: any, signal: AbortSignal) => Promise<Api.Post<"/v1/linkages/assembly">>} */
 export const findAssembly = (parameters, signal) => ask(addressOf("/v1/linkages/assembly"),
   { method: "POST", body: { parameters }, signal });
 

@@ -3,8 +3,9 @@
 import { bytes, plural, span } from "/core/format.js";
 
 /** @param {Api.Estimate} estimate */
-function timeWords({ seconds, measured_jobs: measured }) {
-  if (seconds === null) return "Computing time unknown: nothing of like kind has been computed yet.";
+function timeWords({ seconds, measured_jobs: measured, unmeasured_kinds: unmeasured }) {
+  if (seconds === null) return "Computing time unknown: nothing of like kind has been computed yet"
+    + `${unmeasured.length > 0 ? ` (${unmeasured.join("; ")})` : ""}.`;
   return `Computing time about ${span(seconds)} on this service's workers, judged by ${plural(measured, "run")} of like `
     + "kind.";
 }

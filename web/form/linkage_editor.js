@@ -84,9 +84,10 @@ export class LinkageEditor {
   async #assemble(current) {
     const { linkage } = this.parameters;
     try {
-      const { poses, degrees_of_freedom: freedoms } = await findAssembly(this.parameters, current);
+      const { poses, undriven_freedoms: freedoms } = await findAssembly(this.parameters, current);
       this.#tell([]);
-      this.state.textContent = `Assembled at t = 0: ${plural(freedoms, "degree")} of freedom.`;
+      this.state.textContent = "Assembled at t = 0."
+        + `${freedoms === null ? "" : ` Degrees of freedom that are not driven: ${freedoms}.`}`;
       this.colours = new Map(bodyColours(linkage));
       this.#drawParts(linkage);
       await this.preview.show(linkage, poses);
