@@ -97,5 +97,7 @@ part(".skip").addEventListener("click", (event) => {
 });
 startTheme();
 startDefinitions();
+// Without it nothing is missing but the version itself.
+findHealth().then(({ version }) => { part("#version").textContent = version; }).catch(() => {});
 addEventListener("hashchange", show);
 show();

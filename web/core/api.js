@@ -70,7 +70,8 @@ const withQuery = (path, query = {}) => {
   return set.length === 0 ? path : `${path}?${new URLSearchParams(set)}`;
 };
 
-/** @type {(signal: AbortSignal) => Promise<Api.Get<"/healthz">>} */
+/// Whether the service answers, and the version of its program.
+/** @type {(signal?: AbortSignal) => Promise<Api.Get<"/healthz">>} */
 export const findHealth = (signal) => ask(addressOf("/healthz"), { signal });
 /** @type {(query: Api.Query<"/v1/sweeps">, signal: AbortSignal) => Promise<Api.Page<"/v1/sweeps">>} */
 export const listSweeps = (query, signal) => ask(withQuery(addressOf("/v1/sweeps"), query), { signal });
@@ -231,11 +232,6 @@ export const exampleLinkage = (name, signal) => ask(addressOf(`/linkages/${name}
 /** @type {(signal: AbortSignal) => Promise<Record<string, any>>} */
 export const requestSchemas = (signal) => ask(addressOf("/v1/openapi.json"), { signal })
   .then(({ components }) => components.schemas);
-
-/// Version of the program that serves this page.
-/** @type {(signal: AbortSignal) => Promise<string>} */
-export const programVersion = (signal) => ask(addressOf("/v1/openapi.json"),
-  { signal }).then(({ info }) => info.version);
 
 /** @type {Promise<any> | null} */
 let schema = null;

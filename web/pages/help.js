@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Help: the words of the pages, how to begin, what the plots listen to, and the version of the program.
-import { addressOf, programVersion } from "/core/api.js";
+import { addressOf, findHealth } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { routeTo } from "/core/route.js";
 
@@ -42,5 +42,5 @@ export function show(main, { signal }) {
     h("section", { class: "card" }, h("h2", {}, "Words"), table("Words", ["Word", "Meaning"], words)),
     h("section", { class: "card" }, h("h2", {}, "Plots"), table("Plots", ["Input", "Effect"], inputs)),
       version);
-  programVersion(signal).then((text) => { version.textContent = `RPSUP ${text}`; }).catch(() => {});
+  findHealth(signal).then((health) => { version.textContent = `RPSUP ${health.version}`; }).catch(() => {});
 }
