@@ -40,7 +40,8 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
 
 /// True of a pair whose range is that of no replicates: how far its values scatter is not known.
 /** @param {Pair} row */
-const isSingle = (row) => Number(row.rigid_count) < 2 || Number(row.flexible_count) < 2;
+const isSingle = (row) => row.verdict === "one_run_each" || Number(row.rigid_count) < 2
+  || Number(row.flexible_count) < 2;
 
 /** @param {number} single  @param {number} all */
 function singleText(single, all) {

@@ -6,8 +6,8 @@ import { bytes, plural, span } from "/core/format.js";
 function timeWords({ seconds, measured_jobs: measured, unmeasured_kinds: unmeasured }) {
   if (seconds === null) return "Computing time unknown: nothing of like kind has been computed yet"
     + `${unmeasured.length > 0 ? ` (${unmeasured.join("; ")})` : ""}.`;
-  return `Computing time about ${span(seconds)} on this service's workers, judged by ${plural(measured, "run")} of like `
-    + "kind.";
+  return `Computing time about ${span(seconds)} on this service's workers, judged by `
+    + `${plural(measured, "run")} of like kind.`;
 }
 
 /** @param {Api.Estimate} estimate */
@@ -22,7 +22,7 @@ function sizeWords({ bytes: size, free_bytes: free }) {
 export function costWords(estimate) {
   const { stored_jobs: stored, new_jobs: fresh, max_jobs: most } = estimate;
   if (fresh === 0) return "All results are stored already: nothing is to be computed.";
-  const known = stored === 0 ? [] : [`${stored.toLocaleString("en")} stored already, ${fresh.toLocaleString("en")} to `
-    + "compute."];
-  return [...known, timeWords(estimate), sizeWords(estimate), `At most ${most.toLocaleString("en")} at once.`].join(" ");
+  const text = (count) => count.toLocaleString("en");
+  const known = stored === 0 ? [] : [`${text(stored)} stored already, ${text(fresh)} to compute.`];
+  return [...known, timeWords(estimate), sizeWords(estimate), `At most ${text(most)} at once.`].join(" ");
 }

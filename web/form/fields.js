@@ -4,10 +4,12 @@
 /// Parameters without a field, which are written as JSON.
 export const writtenAsJson = ["crank_drive", "rod_drive", "wear_depth_um", "keep"];
 
+const ofRpsup =
+  /^((coupler|crank|rod|guide|cross)(_|$)|yoke_axis$|rigid_elements$|gravity_direction$|links\.)/;
+
 /// Whether a parameter is of the RPSUP linkage alone. Beams of described linkages take the moduli of the job.
 /** @type {(path: string) => boolean} */
-export const isOfRpsup = (path) => /^((coupler|crank|rod|guide|cross)(_|$)|yoke_axis$|rigid_elements$|gravity_direction$|links\.)/
-  .test(path);
+export const isOfRpsup = (path) => ofRpsup.test(path);
 
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {

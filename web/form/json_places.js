@@ -14,7 +14,8 @@ const string = /"(?:[^"\\\p{Cc}]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4}))*"/uy;
 /** @type {(key: string | number) => string} */
 const escaped = (key) => String(key).replaceAll("~", "~0").replaceAll("/", "~1");
 
-/// Places of all values by their JSON pointers, the whole text's being "". Of a faulty text: those before the fault.
+/// Places of all values by their JSON pointers, the whole text's being "". Of a faulty text: those before the
+/// fault.
 /** @param {string} text  @returns {Places} */
 export function placesIn(text) {
   /** @type {Map<string, Place>} */
@@ -42,7 +43,8 @@ export function placesIn(text) {
   /** @param {string} sign */
   function expect(sign, where = "") {
     skip();
-    if (text[at] !== sign) refuse(at < text.length ? `“${sign}” is expected${where}` : `the text ends before “${sign}”`);
+    if (at >= text.length) refuse(`the text ends before “${sign}”`);
+    if (text[at] !== sign) refuse(`“${sign}” is expected${where}`);
     at += 1;
   }
 

@@ -9,8 +9,9 @@ export function jsonText(value, indent = 0) {
   const line = oneLine(value);
   if (line.length + indent <= width || typeof value !== "object" || value === null) return line;
   const inner = " ".repeat(indent + 1);
-  const members = Array.isArray(value) ? value.map((each) => `${inner}${jsonText(each, indent + 1)}`)
-    : Object.entries(value).map(([key, each]) => `${inner}${JSON.stringify(key)}: ${jsonText(each, indent + 1)}`);
+  const textOf = (each) => jsonText(each, indent + 1);
+  const members = Array.isArray(value) ? value.map((each) => `${inner}${textOf(each)}`)
+    : Object.entries(value).map(([key, each]) => `${inner}${JSON.stringify(key)}: ${textOf(each)}`);
   const [open, close] = Array.isArray(value) ? "[]" : "{}";
   return `${open}\n${members.join(",\n")}\n${" ".repeat(indent)}${close}`;
 }
@@ -19,5 +20,6 @@ export function jsonText(value, indent = 0) {
 function oneLine(value) {
   if (Array.isArray(value)) return `[${value.map(oneLine).join(", ")}]`;
   if (typeof value !== "object" || value === null) return JSON.stringify(value);
-  return `{${Object.entries(value).map(([key, each]) => `${JSON.stringify(key)}: ${oneLine(each)}`).join(", ")}}`;
+  const members = Object.entries(value).map(([key, each]) => `${JSON.stringify(key)}: ${oneLine(each)}`);
+  return `{${members.join(", ")}}`;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor of a described linkage: its JSON text beside the assembled linkage in 3-D, its parts, and its faults. A click on
-// a part or a fault selects its place in the text.
+// Editor of a described linkage: its JSON text beside the linkage in 3-D, its parts, and its faults.
+// A click on a part or a fault selects its place in the text.
 import { Refusal, findAssembly } from "/core/api.js";
 import { freshId, h, swatch } from "/core/dom.js";
 import { plural } from "/core/format.js";
@@ -35,13 +35,13 @@ export class LinkageEditor {
   constructor(text, changed, goTo, signal) {
     this.goTo = goTo;
     const id = freshId("linkage");
-    this.area = h("textarea", { rows: 3, class: "wide code", value: text, id, wrap: "off", spellcheck: "false",
-      oninput: () => changed(this.area.value) });
+    this.area = h("textarea", { rows: 3, class: "wide code", value: text, id, wrap: "off",
+      spellcheck: "false", oninput: () => changed(this.area.value) });
     this.preview = new Preview(signal);
     this.seen = h("div", {}, this.preview.element, this.state, this.faults);
     this.element = h("div", { class: "editor" },
-      h("div", {}, h("label", { class: "choice wide", for: id }, "Linkage: JSON object of bodies and joints"), this.area,
-        this.fault), this.seen, this.parts);
+      h("div", {}, h("label", { class: "choice wide", for: id }, "Linkage: JSON object of bodies and joints"),
+        this.area, this.fault), this.seen, this.parts);
     this.ask = latest((current) => this.#assemble(current), signal);
     this.askSoon = settled(() => signal.aborted || this.ask(), settleMs);
   }
@@ -104,17 +104,19 @@ export class LinkageEditor {
   /** @param {{ words: string, detail: string, go: () => void }[]} faults */
   #tell(faults) {
     this.faults.replaceChildren(...faults.map(({ words, detail, go }) =>
-      h("li", {}, h("button", { type: "button", class: "link", onclick: go }, words ? `${words}: ${detail}` : detail))));
+      h("li", {}, h("button", { type: "button", class: "link", onclick: go },
+        words ? `${words}: ${detail}` : detail))));
     this.faults.hidden = faults.length === 0;
     if (faults.length === 0) return;
     const isOld = this.preview.element.hasChildNodes();
-    this.state.textContent = `${plural(faults.length, "fault")}${isOld ? "; the picture shows the last position that was "
-      + "assembled" : ""}.`;
+    this.state.textContent = plural(faults.length, "fault")
+      + `${isOld ? "; the picture shows the last position that was assembled" : ""}.`;
   }
 
   /** @param {any} linkage */
   #drawParts(linkage) {
-    const lists = typeof linkage === "object" && linkage !== null ? partsOf(linkage, this.parameters?.clearance_mm) : [];
+    const isObject = typeof linkage === "object" && linkage !== null;
+    const lists = isObject ? partsOf(linkage, this.parameters?.clearance_mm) : [];
     const text = JSON.stringify([lists, [...this.colours]]);
     if (text === this.drawn) return;  // a button that stays keeps the focus
     this.drawn = text;

@@ -24,9 +24,12 @@ export const exampleNames = linkages.map(([name]) => name).filter(Boolean);
 /// Cards to choose among. @param chosen  the name of the one in the form; null: none of them
 /** @param {string | null} chosen */
 export function linkageGallery(chosen) {
-  return h("ul", { class: "gallery", "aria-label": "Linkages to begin with" }, linkages.map(([name, title, text]) =>
-    h("li", {}, h("a", { href: routeTo("new", "", name ? { linkage: name } : {}),
-      "aria-current": name === chosen ? "true" : null },
-      h("img", { src: addressOf(`/figures/linkages/${name || "rpsup"}.svg`), alt: "", width: 160, height: 110 }),
-      h("strong", {}, title), h("span", { class: "small" }, text)))));
+  /** @param {string[]} linkage */
+  const card = ([name, title, text]) => h("a", { href: routeTo("new", "", name ? { linkage: name } : {}),
+    "aria-current": name === chosen ? "true" : null },
+    h("img", { src: addressOf(`/figures/linkages/${name || "rpsup"}.svg`), alt: "", width: 160,
+      height: 110 }),
+    h("strong", {}, title), h("span", { class: "small" }, text));
+  return h("ul", { class: "gallery", "aria-label": "Linkages to begin with" },
+    linkages.map((linkage) => h("li", {}, card(linkage))));
 }

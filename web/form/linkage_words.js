@@ -7,12 +7,13 @@ const spaced = (name) => name.replaceAll("_", " ");
 /** @type {(value: any) => boolean} */
 const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
 /** @type {(value: any) => [string, any][]} */
-const entriesOf = (value) => (isObject(value) ? Object.entries(value).filter(([, each]) => isObject(each)) : []);
+const entriesOf = (value) => (isObject(value) ? Object.entries(value) : [])
+  .filter(([, each]) => isObject(each));
 
 /// What drives a freedom: "driven by run up", "driven by a dc motor".
 function driveOf(drive) {
   if (!isObject(drive)) return "";
-  return drive.law ? `driven by ${spaced(String(drive.law))}` : `driven by actuator ${spaced(String(drive.actuator))}`;
+  return `driven by ${drive.law ? "" : "actuator "}${spaced(String(drive.law ?? drive.actuator))}`;
 }
 
 function clearanceOf({ clearance_mm: own, clearance_height_mm: height }, usual) {
@@ -27,8 +28,8 @@ function jointWords(joint, usual) {
   const driven = entriesOf(freedoms).filter(([, freedom]) => freedom.drive)
     .map(([name, freedom]) => `${spaced(name)} ${driveOf(freedom.drive)}`);
   return [spaced(String(kind)), `${spaced(String(from))} → ${spaced(String(to))}`,
-    isObject(clearance) ? clearanceOf(clearance, usual) : "", driveOf(drive), ...driven, closes ? "closes the loop" : ""]
-    .filter(Boolean).join(", ");
+    isObject(clearance) ? clearanceOf(clearance, usual) : "", driveOf(drive), ...driven,
+    closes ? "closes the loop" : ""].filter(Boolean).join(", ");
 }
 
 function bodyWords({ mass_kg: mass, beam }) {
@@ -52,16 +53,21 @@ export function partsOf({ bodies, joints, springs, loads }, usual) {
     listed("Springs", "springs", springs, ({ from = "?", to = "?" }) =>
       `${spaced(String(from))} → ${spaced(String(to))}`),
     listed("Loads", "loads", loads, ({ body = "?", torque_n_m: torque }) =>
-      `${torque === undefined ? "force" : "torque"} on ${spaced(String(body))}`)].filter(({ parts }) => parts.length > 0);
+      `${torque === undefined ? "force" : "torque"} on ${spaced(String(body))}`)]
+    .filter(({ parts }) => parts.length > 0);
 }
+
+/** @type {(key: string) => string} */
+const escaped = (key) => key.replaceAll("~", "~0").replaceAll("/", "~1");
+/** @type {(key: string) => string} */
+const unescaped = (key) => key.replaceAll("~1", "/").replaceAll("~0", "~");
 
 const kinds = { bodies: "body", joints: "joint", springs: "spring", loads: "load" };
 
 /// Keys of a pointer of the service, which may be written with slashes or dots.
 /** @param {string} pointer  @returns {string[]} */
 function keysOf(pointer) {
-  const keys = pointer.startsWith("/")
-    ? pointer.slice(1).split("/").map((key) => key.replaceAll("~1", "/").replaceAll("~0", "~")) : pointer.split(".");
+  const keys = pointer.startsWith("/") ? pointer.slice(1).split("/").map(unescaped) : pointer.split(".");
   return keys[0] === "parameters" ? keys.slice(1) : keys;
 }
 
@@ -69,7 +75,7 @@ function keysOf(pointer) {
 /** @param {string} pointer */
 export function inLinkage(pointer) {
   const [first, ...keys] = keysOf(pointer);
-  return first === "linkage" ? keys.map((key) => `/${key.replaceAll("~", "~0").replaceAll("/", "~1")}`).join("") : null;
+  return first === "linkage" ? keys.map((key) => `/${escaped(key)}`).join("") : null;
 }
 
 /// A pointer of the service in words: "joint crank pin, at_m".

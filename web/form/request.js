@@ -18,7 +18,8 @@ export function buildRequest(fields, state) {
   for (const field of fields) {
     const entry = state.entries[field.path];
     const applies = !isDescription(state.linkage) || !isOfRpsup(field.path);
-    if (entry && applies) addEntry(field, entry, request, (detail) => problems.push({ path: field.path, detail }));
+    const refuse = (detail) => problems.push({ path: field.path, detail });
+    if (entry && applies) addEntry(field, entry, request, refuse);
   }
   addJson("linkage", state.linkage, request.parameters, problems);
   const others = { described: {} };

@@ -140,8 +140,9 @@ export class RequestForm {
     this.editor = new LinkageEditor(this.state.linkage, change, (pointer) => this.goTo(pointer), this.signal);
     this.rows.set("linkage", this.editor);
     return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
-      h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives. The parameters of RPSUP's "
-        + "coupler, crank, rod and guide do not apply to it and are hidden."), this.editor.element,
+      h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives. "
+        + "The parameters of RPSUP's coupler, crank, rod and guide do not apply to it and are hidden."),
+      this.editor.element,
       ...this.json("inside", "Axes inside the linkage: JSON object of lists and ranges"));
   }
 

@@ -211,7 +211,8 @@ class JobPage {
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
     this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration",
       { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
-        ...this.measuredOf([acceleration.channel])], note: peakNote(this.jobs, [acceleration.channel], !acceleration.envelope),
+        ...this.measuredOf([acceleration.channel])],
+        note: peakNote(this.jobs, [acceleration.channel], !acceleration.envelope),
         times: this.times, height: 320, signal, tools }));
   }
 

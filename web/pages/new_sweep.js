@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A new sweep: a form made from the service's own description of its parameters.
-import { addressOf, estimateSweep, exampleLinkage, findSweep, parameterSchema, submitSweep } from "/core/api.js";
+import { addressOf, estimateSweep, exampleLinkage, findSweep, parameterSchema,
+  submitSweep } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { plural } from "/core/format.js";
 import { latest, settled } from "/core/live.js";
@@ -52,7 +53,8 @@ class SweepForm extends RequestForm {
       h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("new", "", { template: "paper" }) },
         "Load the paper's sweep"), h("a", { class: "button", href: "#/new" }, "Empty form")),
       linkageGallery(this.example || (isDescription(this.state.linkage) ? null : "")),
-      this.columns(this.nameField(), this.otherLinkage(), ...this.parameterFields(), this.described(), this.more())];
+      this.columns(this.nameField(), this.otherLinkage(), ...this.parameterFields(), this.described(),
+        this.more())];
   }
 
   more() {
@@ -69,7 +71,8 @@ class SweepForm extends RequestForm {
     return buildRequest(this.fields, this.state);
   }
 
-  /// Counts the jobs of a request that can be sent. The service counts, estimates, and finds what it would refuse.
+  /// Counts the jobs of a request that can be sent: the service counts, estimates, and finds what it would
+  /// refuse.
   drawCount() {
     if (this.problems.length === 0) this.estimateSoon();
     else this.#tell("Number of jobs unknown", "");

@@ -160,8 +160,8 @@ class SweepList {
 
   /** @param {Api.ListedSweep} sweep */
   matches(sweep) {
-    const text = [sweep.name, sweep.id, ...sweep.tags ?? [], sweep.notes, ...sweep.axes, ...sweep.axes.map(nameOf)]
-      .join(" ").toLowerCase();
+    const { name, id, tags = [], notes = "", axes } = sweep;
+    const text = [name, id, ...tags, notes, ...axes, ...axes.map(nameOf)].join(" ").toLowerCase();
     return this.search.toLowerCase().split(/\s+/).every((word) => text.includes(word));
   }
 

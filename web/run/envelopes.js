@@ -3,13 +3,18 @@
 
 const least = /^(.+)_min(_.+)$/;
 
-/// A channel with its envelope, where the run has one.
-/** @param {string} channel  @param {string[]} columns  of the run  @returns {Pick<Trace, "channel" | "envelope">} */
+/// A channel with its envelope, where the run has one. @param columns  of the run
+/**
+ * @param {string} channel
+ * @param {string[]} columns
+ * @returns {Pick<Trace, "channel" | "envelope">}
+ */
 export function withEnvelope(channel, columns) {
   for (const low of columns) {
     const [, stem, unit] = least.exec(low) ?? [];
     const high = `${stem}_max${unit}`;
-    if (stem && `${stem}${unit}` === channel && columns.includes(high)) return { channel, envelope: [low, high] };
+    if (!stem || `${stem}${unit}` !== channel) continue;
+    if (columns.includes(high)) return { channel, envelope: [low, high] };
   }
   return { channel };
 }

@@ -42,8 +42,10 @@ export function finerButton(times, job, signal) {
     const short = (value) => Number(value.toPrecision(7));
     told.textContent = "Submitting …";
     try {
-      const { id, state } = await submitJob({ ...job.parameters, duration_s: short(to), output_rate_hz: rate, keep: "all" });
-      const link = h("a", { href: routeTo("jobs", id, { from: short(from), to: short(to) }) }, `job …${id.slice(-5)}`);
+      const { id, state } = await submitJob({ ...job.parameters, duration_s: short(to), output_rate_hz: rate,
+        keep: "all" });
+      const link = h("a", { href: routeTo("jobs", id, { from: short(from), to: short(to) }) },
+        `job …${id.slice(-5)}`);
       for (let now = state; ; { state: now } = await findJob(id, signal)) {
         told.replaceChildren("Finer run: ", link, `, ${now}`);
         if (now !== "queued" && now !== "running") break;

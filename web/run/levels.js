@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levels in a plot: the peaks of the metrics, which samples may miss, as dotted lines at both signs of the magnitude.
+// Levels in a plot: the peaks of the metrics, which samples may miss, as dotted lines at both signs of the
+// magnitude.
 import { unitOf } from "/core/format.js";
 
 const dots = [2, 4];

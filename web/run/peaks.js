@@ -6,9 +6,11 @@ import { labelsOf } from "/run/labels.js";
 const unitOfAcceleration = /_((m|rad)_s2)$/;
 const digits = 5;  // as in the table of the metrics
 
-/// Metrics that may be the peak of a channel. Accelerations of a described linkage are called so in the metrics alone.
+/// Metrics that may be the peak of a channel. Accelerations of a described linkage are called so in the
+/// metrics alone.
 /** @type {(channel: string) => string[]} */
-const namesOf = (channel) => [`peak_${channel}`, `peak_${channel.replace(unitOfAcceleration, "_acceleration_$1")}`];
+const namesOf = (channel) => [channel, channel.replace(unitOfAcceleration, "_acceleration_$1")]
+  .map((name) => `peak_${name}`);
 
 /// The metrics' peak of a channel in the whole run; undefined if they have none.
 /** @param {Api.Job} job  @param {string} channel  @returns {number | undefined} */
@@ -55,5 +57,6 @@ export function peakNote(jobs, channels, hasLines = true) {
   const rates = [...new Set(jobs.map((job) => job.parameters.output_rate_hz))].map((rate) => number(rate, 6))
     .join(" and ");
   return `Peak magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. Peaks include values between `
-    + `the samples, which the curve joins at ${rates} Hz${hasLines ? "; dotted lines stand at the peaks" : ""}.`;
+    + `the samples, which the curve joins at ${rates} Hz`
+    + `${hasLines ? "; dotted lines stand at the peaks" : ""}.`;
 }

@@ -44,7 +44,8 @@ export function tracesOf(jobs, channels) {
     const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;
     const level = envelope ? undefined : peakLevel(job, channel);
     const name = channels.length > 1 || !several ? nameOf(channel) : "";
-    return { job: job.id, channel, envelope, level, name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
+    return { job: job.id, channel, envelope, level,
+      name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
       colour: () => lineColour(j * channels.length + c) };
   }));
 }

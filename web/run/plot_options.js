@@ -16,10 +16,10 @@ import { columnsOf } from "/run/plot_data.js";
  */
 export function plotOptions(uPlot, traces, times, width, height) {
   const units = [...new Set(traces.map((trace) => unitOf(trace.channel) || "1"))];
+  const ranges = units.map((unit) => [unit, { range: rangeWith(traces, times, unit, uPlot.rangeNum) }]);
   return {
     width, height,
-    scales: { x: { time: false, range: () => [times.from, times.to] }, ...Object.fromEntries(units.map((unit) =>
-      [unit, { range: rangeWith(traces, times, unit, uPlot.rangeNum) }])) },
+    scales: { x: { time: false, range: () => [times.from, times.to] }, ...Object.fromEntries(ranges) },
     series: [{ label: "t [s]", value: (_, value) => number(value, 6) }, ...traces.flatMap(seriesOf)],
     bands: bandsOf(traces),
     axes: [axis("x", "t [s]", 3), ...units.map((unit, index) => axis(unit, unit, index === 0 ? 3 : 1))],

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // An arrow of a force in the scene. Its sizes go by the thickness of a bar.
 
+/** @typedef {typeof import("three")} Three */
+/** @typedef {import("three").Vector3} Vector3 */
+
 const shaftRadius = 0.5;  // in radii of a bar, as the sizes below
 const head = { radius: 1.6, length: 4 };
 
 /// A cone along y with its base at the origin.
-/** @param {typeof import("three")} THREE  @param {number} radius  @param {import("three").Material} material */
+/** @param {Three} THREE  @param {number} radius  @param {import("three").Material} material */
 export function headOf(THREE, radius, material) {
   return new THREE.Mesh(new THREE.ConeGeometry(head.radius * radius, head.length * radius, 24)
     .translate(0, 0.5 * head.length * radius, 0), material);
 }
 
 export class Arrow {
-  /** @param {typeof import("three")} THREE  @param {number} radius  @param {import("three").Material} material */
+  /** @param {Three} THREE  @param {number} radius  @param {import("three").Material} material */
   constructor(THREE, radius, material) {
     this.THREE = THREE;
     this.radius = radius;
@@ -23,7 +26,7 @@ export class Arrow {
   }
 
   /// Draws it from a place along a unit vector. A head that does not fit is drawn smaller.
-  /** @param {import("three").Vector3} place  @param {import("three").Vector3} along  @param {number} length */
+  /** @param {Vector3} place  @param {Vector3} along  @param {number} length */
   point(place, along, length) {
     const { THREE, radius, shaft, tip, object } = this;
     object.position.copy(place);

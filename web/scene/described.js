@@ -17,8 +17,8 @@ export function bodyColours(linkage) {
   const spaced = ([name, colour]) => [name.replaceAll("_", " "), colour];
   /** @type {(name: string, isThere: any, colour: string) => [string, string][]} */
   const others = (name, isThere, colour) => (isThere ? [[name, colour]] : []);
-  return [...Object.entries(coloursOf(linkage)).map(spaced), ...others("springs", linkage.springs, springColour),
-    ...others("loads", linkage.loads, loadColour)];
+  return [...Object.entries(coloursOf(linkage)).map(spaced),
+    ...others("springs", linkage.springs, springColour), ...others("loads", linkage.loads, loadColour)];
 }
 
 /** @param {Api.DescribedLinkage} linkage  @returns {Record<string, string>} */
@@ -37,8 +37,8 @@ export function channelsOf(linkage, channels) {
     journals: journals.filter((name) => channels.includes(name)) };
 }
 
-/// Ranges and values of the same channels for a picture of one position: loads at their full length, journals in the
-/// middle of their bearings.
+/// Ranges and values of the same channels for a picture of one position: loads at their full length,
+/// journals in the middle of their bearings.
 /** @param {Api.DescribedLinkage} linkage */
 export function channelsFor(linkage) {
   const loads = Object.entries(linkage.loads ?? {}).map(([name, load]) => channelOf(name, load));

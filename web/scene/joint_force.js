@@ -20,7 +20,12 @@ export function largestForce({ metrics }, ranges) {
 
 export class JointForce {
   /// @param largest  force of the run [N]  @param crank  length of the crank [m]
-  /** @param {typeof import("three")} THREE  @param {number} largest  @param {number} crank  @param {number} radius */
+  /**
+   * @param {typeof import("three")} THREE
+   * @param {number} largest
+   * @param {number} crank
+   * @param {number} radius
+   */
   constructor(THREE, largest, crank, radius) {
     this.THREE = THREE;
     this.largest = largest;
@@ -30,12 +35,18 @@ export class JointForce {
     this.arrow.object.traverse((part) => { part.renderOrder = 1; });  // it begins inside the bearing
   }
 
-  /** @param {import("three").Vector3} joint  @param {Record<string, number>} values  @param {number} factor */
+  /// Draws the force at an instant, and tells its size [N].
+  /**
+   * @param {import("three").Vector3} joint
+   * @param {Record<string, number>} values
+   * @param {number} factor
+   */
   place(joint, values, factor) {
     const force = new this.THREE.Vector3(...forceChannels.map((name) => values[name] ?? 0));
     const size = force.length();
-    this.arrow.object.visible = size > 1e-3 * this.largest / factor;
-    if (this.arrow.object.visible) this.arrow.point(joint, force.divideScalar(size), this.lengthOf(size, factor));
+    const { arrow } = this;
+    arrow.object.visible = size > 1e-3 * this.largest / factor;
+    if (arrow.object.visible) arrow.point(joint, force.divideScalar(size), this.lengthOf(size, factor));
     return size;
   }
 

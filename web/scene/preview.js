@@ -36,7 +36,11 @@ export class Preview {
     this.element.dataset.bodies = String(drawn.bodies.size + drawn.beams.size);
   }
 
-  /** @param {Awaited<ReturnType<typeof loadThree>>} libraries  @param {Api.DescribedLinkage} linkage  @param {number[][]} places */
+  /**
+   * @param {Awaited<ReturnType<typeof loadThree>>} libraries
+   * @param {Api.DescribedLinkage} linkage
+   * @param {number[][]} places
+   */
   #stageFor(libraries, linkage, places) {
     const reach = reachOf(linkage);
     const up = upOf(/** @type {Api.Parameters} */ ({ linkage }));
@@ -44,10 +48,12 @@ export class Preview {
     if (this.#shown && ratio < alike && ratio > 1 / alike && `${up}` === `${this.#shown.up}`) return;
     this.#shown?.life.abort();
     const canvas = h("canvas", { class: "scene", role: "img", tabindex: 0,
-      "aria-label": "The linkage at t = 0 in three dimensions. Drag to turn it, wheel to come closer, arrow keys to move." });
+      "aria-label": "The linkage at t = 0 in three dimensions. Drag to turn it, wheel to come closer, "
+        + "arrow keys to move." });
     this.element.replaceChildren(canvas);
     const life = new AbortController();
-    const stage = new Stage(libraries, canvas, { reach, up, places }, AbortSignal.any([this.signal, life.signal]));
+    const signal = AbortSignal.any([this.signal, life.signal]);
+    const stage = new Stage(libraries, canvas, { reach, up, places }, signal);
     this.#shown = { stage, reach, up, life };
   }
 

@@ -60,8 +60,9 @@ export function sceneCard(job, channels, times, signal) {
       : new Linkage(libraries.THREE, parameters, links);
     const stage = new Stage(libraries, canvas, shownOf(parameters), signal);
     stage.scene.add(linkage.group);
-    const force = hasForce && linkage instanceof Linkage ? new JointForce(libraries.THREE, largestForce(job, ranges),
-      parameters.crank_length_m, 0.6 * linkage.measures.crank.radius) : null;
+    const force = hasForce && linkage instanceof Linkage
+      ? new JointForce(libraries.THREE, largestForce(job, ranges), parameters.crank_length_m,
+        0.6 * linkage.measures.crank.radius) : null;
     if (force) stage.scene.add(force.arrow.object);
     const poses = new Poses(job, { links, others: loads },
       (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);

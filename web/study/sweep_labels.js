@@ -6,7 +6,8 @@ import { freshId, h } from "/core/dom.js";
 
 /// Tags as badges, with a space before each.
 /** @param {Api.Labels} labels */
-export const tagBadges = ({ tags = [] }) => tags.flatMap((tag) => [" ", h("span", { class: "badge tag" }, tag)]);
+export const tagBadges = ({ tags = [] }) =>
+  tags.flatMap((tag) => [" ", h("span", { class: "badge tag" }, tag)]);
 
 /// Words of a list without empty and repeated ones: "worn, bench 2" has two.
 /** @param {string} text */
@@ -21,8 +22,10 @@ export function editLabels({ id, name, notes = "", tags = [] }) {
     notes: h("textarea", { rows: 6, class: "wide", value: notes }),
     tags: h("input", { type: "text", class: "wide", value: tags.join(", "), "aria-describedby": help }),
   };
-  const labelled = (text, field) => h("p", {}, h("label", { class: "choice wide" }, h("span", {}, text), field));
-  const content = [labelled("Name", fields.name), labelled("Notes", fields.notes), labelled("Tags", fields.tags),
+  const labelled = (text, field) =>
+    h("p", {}, h("label", { class: "choice wide" }, h("span", {}, text), field));
+  const content = [labelled("Name", fields.name), labelled("Notes", fields.notes),
+    labelled("Tags", fields.tags),
     h("p", { class: "quiet small", id: help }, "Tags stand between commas.")];
   return formDialog("Name, notes and tags", content, "Save", async () => {
     for (const field of Object.values(fields)) field.removeAttribute("aria-invalid");
