@@ -31,12 +31,12 @@ test("the form shows what is wrong where it is wrong, and submits what it shows"
   assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
   // More than the bearing's radius: only the service knows that.
   await row("clearance_mm").getByRole("textbox").fill("6, 0.25");
-  await page.getByText("2 jobs").waitFor();
-  await page.getByRole("button", { name: "Submit" }).click();
   await row("clearance_mm").getByText("must be less than bearing_radius_mm, which is 5 mm").waitFor();
+  await page.getByRole("button", { name: "Submit" }).click();
   await page.getByRole("alert").getByText("/sweep/clearance_mm:").waitFor();
   await expectAccessible(page);
   await row("clearance_mm").getByRole("textbox").fill("0, 0.25");
+  await page.getByText("2 jobs").waitFor();
   const shown = JSON.parse(await page.locator("aside pre").first().textContent());
   await page.getByRole("button", { name: "Submit" }).click();
   await page.waitForURL(/#\/sweeps\/swp_/);
