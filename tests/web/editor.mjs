@@ -18,7 +18,7 @@ const pixels = (page) => page.locator(".preview canvas").evaluate((canvas) => ca
 test("a linkage stands beside its text, and its parts are found in the text", async () => {
   const page = await visit("#/new?linkage=slider_crank");
   await page.locator(".preview[data-bodies='3'] canvas").waitFor();
-  await page.getByText("Assembled at t = 0. Degrees of freedom that are not driven: 0.").waitFor();
+  await page.getByText("Assembled at t = 0. Degrees of freedom without a drive, those of play and bending among them: 4.").waitFor();
   await page.getByText("revolute, crank → rod, clearance 0.1 mm, closes the loop").waitFor();
   await page.getByText("revolute, slider → rod, clearance 0.2 mm, closes the loop").waitFor();
   await page.getByText("driven by run up").waitFor();
@@ -75,7 +75,7 @@ test("a linkage typed into an empty form is drawn, and what RPSUP alone has is n
   await page.getByText("Custom linkage", { exact: true }).click();
   await text(page).fill('{"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}}, "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob"}}}');
   await page.locator(".preview[data-bodies='1'] canvas").waitFor();
-  await page.getByText("Assembled at t = 0. Degrees of freedom that are not driven: 1.").waitFor();
+  await page.getByText("Assembled at t = 0. Degrees of freedom without a drive, those of play and bending among them: 1.").waitFor();
   assert.deepEqual(Object.keys((await shown(page)).parameters), ["linkage"]);
   await text(page).fill("");
   assert.deepEqual((await shown(page)).parameters, { crank_velocity_rad_s: 12 });

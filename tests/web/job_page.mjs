@@ -422,7 +422,7 @@ test("plots of loads reach up to their peaks, which samples miss", async () => {
   const page = await visit(`#/jobs/${id}`);
   const card = page.locator("section.card").filter({ has: page.getByRole("heading", { name: "Contact force", exact: true }) });
   await card.locator(`.uplot[data-levels="${peak}"]`).waitFor();
-  await card.getByText("dotted lines stand at the peaks").waitFor();
+  await card.getByText("Dotted lines stand at the peaks.").waitFor();
   // Its drives have both signs.
   const drives = page.locator("section.card").filter({ has: page.getByRole("heading", { name: "Drive torque and force" }) });
   const levels = (await drives.locator(".uplot[data-levels]").getAttribute("data-levels")).split(" ").map(Number);

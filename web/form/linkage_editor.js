@@ -12,6 +12,7 @@ import { Preview } from "/scene/preview.js";
 
 const settleMs = 400;
 const linesAbove = 3;  // of a place that is scrolled into sight
+const freedomsLeft = "Degrees of freedom without a drive, those of play and bending among them";
 
 export class LinkageEditor {
   fault = h("p", { class: "trouble small", hidden: true });
@@ -86,8 +87,7 @@ export class LinkageEditor {
     try {
       const { poses, undriven_freedoms: freedoms } = await findAssembly(this.parameters, current);
       this.#tell([]);
-      this.state.textContent = "Assembled at t = 0."
-        + `${freedoms === null ? "" : ` Degrees of freedom that are not driven: ${freedoms}.`}`;
+      this.state.textContent = `Assembled at t = 0.${freedoms === null ? "" : ` ${freedomsLeft}: ${freedoms}.`}`;
       this.colours = new Map(bodyColours(linkage));
       this.#drawParts(linkage);
       await this.preview.show(linkage, poses);

@@ -57,6 +57,6 @@ export function peakNote(jobs, channels, hasLines = true) {
   const rates = [...new Set(jobs.map((job) => job.parameters.output_rate_hz))].map((rate) => number(rate, 6))
     .join(" and ");
   return `Peak magnitude: ${peaks.map((words) => words.join(" ").trim()).join("; ")}. Peaks include values between `
-    + `the samples, which the curve joins at ${rates} Hz`
-    + `${hasLines ? "; dotted lines stand at the peaks" : ""}.`;
+    + `the samples, which the curve joins at ${rates} Hz.`
+    + `${hasLines ? " Dotted lines stand at the peaks." : ""}`;
 }
