@@ -128,6 +128,8 @@ set(page_files
   study/best_so_far.js
   study/candidate_scatter.js
   study/chosen.js
+  study/configuration.js
+  study/extend_sweep.js
   study/colour_bar.js
   study/column_choice.js
   study/curve_choice.js

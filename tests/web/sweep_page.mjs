@@ -218,3 +218,48 @@ test("a sweep is renamed, noted and tagged, and found by its tag", async () => {
   await picture(page, "tagged_390");
   await leave(page, /422/);
 });
+
+test("a sweep tells its configuration, is extended, reported and deleted", async () => {
+  const sweep = await runSweep({ name: "set up", parameters: { duration_s: 0.02, run_up_s: 0.01, restitution: 0.9 },
+    sweep: { clearance_mm: { from: 0.1, to: 0.2, count: 2 }, coupler: ["rigid"] } });
+  const page = await visit(`#/sweeps/${sweep.id}`);
+  const configuration = page.locator("details", { has: page.getByText("Configuration", { exact: true }) }).first();
+  const values = async () => Object.fromEntries(await configuration.locator("dl > div").evaluateAll((rows) =>
+    rows.filter((row) => !row.hidden).map((row) => [...row.children].map((part) => part.textContent))));
+  await configuration.getByText(/^RPSUP \d.*engine/).waitFor();
+  const shown = await values();
+  assert.deepEqual([shown.Clearance, shown.Coupler, shown.Duration, shown["Everything else"]],
+    ["0.1 to 0.2 mm, 2 values", "rigid", "0.02 s", "defaults"]);
+  assert.equal(shown.Restitution, undefined, "a parameter with its default value");
+  await configuration.getByText("Request", { exact: true }).click();
+  assert.deepEqual(JSON.parse(await configuration.locator("pre").textContent()), sweep.request);
+  await expectAccessible(page);
+  await picture(page, "configuration");
+  await page.getByRole("button", { name: "Extend", exact: true }).click();
+  const dialog = page.getByRole("dialog", { name: "More values for the axes" });
+  await dialog.getByRole("button", { name: "Extend" }).click();
+  await dialog.getByText("Write a value into a field.").waitFor();
+  await dialog.getByLabel("Clearance [mm]").fill("0.25; 0,3");
+  await dialog.getByLabel("Coupler").fill("soft");
+  await dialog.getByRole("button", { name: "Extend" }).click();
+  await dialog.getByText(/coupler/).first().waitFor();
+  await dialog.getByLabel("Coupler").fill("");
+  await expectAccessible(page);
+  await dialog.getByRole("button", { name: "Extend" }).click();
+  await page.getByText("succeeded: 4 succeeded of 4 jobs").waitFor();
+  assert.deepEqual((await ask(`/v1/sweeps/${sweep.id}`)).request.sweep.clearance_mm, [0.1, 0.2, 0.25, 0.3]);
+  await page.getByLabel("Metric").selectOption("impact_count");
+  const report = await page.getByRole("link", { name: "Report" }).getAttribute("href");
+  const answer = await fetch(new URL(report, url));
+  assert.equal(answer.status, 200);
+  assert.match(await answer.text(), /Largest impact count/);
+  await page.goto(String(new URL(report, url)));
+  await expectNoSideways(page);
+  await expectAccessible(page);
+  await page.goBack();
+  await page.getByRole("button", { name: "Delete", exact: true }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Delete" }).click();
+  await page.waitForURL(/#\/$/);
+  assert.equal((await fetch(`${url}/v1/sweeps/${sweep.id}`)).status, 404);
+  await leave(page, /422/);
+});

@@ -91,6 +91,8 @@ export const cancelSweep = (id) => ask(`${sweepPath(id)}/cancel`, { method: "POS
 export const retrySweep = (id) => ask(`${sweepPath(id)}/retry`, { method: "POST" });
 /** @type {(id: string, labels: Api.Schemas["SweepDescription"]) => Promise<Api.Sweep>} */
 export const changeSweep = (id, labels) => ask(sweepPath(id), { method: "PATCH", body: labels });
+/** @type {(id: string, addition: Api.Body<"/v1/sweeps/{id}/extend">) => Promise<Api.Sweep>} */
+export const extendSweep = (id, addition) => ask(`${sweepPath(id)}/extend`, { method: "POST", body: addition });
 /** @type {(id: string) => Promise<null>} */
 export const deleteSweep = (id) => ask(sweepPath(id), { method: "DELETE" });
 /**
@@ -181,8 +183,8 @@ export const analysisUrl = (id, analysis, query) => withQuery(`${sweepPath(id)}/
  *   signal: AbortSignal) => Promise<Api.Get<`/v1/sweeps/{id}/${Name}`>>}
  */
 export const findAnalysis = (id, analysis, query, signal) => ask(analysisUrl(id, analysis, query), { signal });
-/** @type {(id: string) => string} */
-export const reportUrl = (id) => `${sweepPath(id)}/report`;
+/** @type {(id: string, query?: Api.Query<"/v1/sweeps/{id}/report">) => string} */
+export const reportUrl = (id, query) => withQuery(`${sweepPath(id)}/report`, query);
 /// Analysis of a job, as columns: spectrum, poincare.
 /**
  * @type {<Name extends "spectrum" | "poincare">(id: string, analysis: Name,

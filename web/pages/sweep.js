@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sweep: its metrics over its axes, in parts that share what is selected.
-import { cancelSweep, findResults, findSweep, parameterSchema, resultsUrl,
+import { cancelSweep, deleteSweep, findResults, findSweep, parameterSchema, reportUrl, resultsUrl,
   retrySweep } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
+import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
 import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, drawSummary } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
+import { configurationCard } from "/study/configuration.js";
 import { curveChoice } from "/study/curve_choice.js";
 import { metricsOf } from "/study/data.js";
+import { extendDialog, extendableAxes } from "/study/extend_sweep.js";
 import { Failures } from "/study/failures.js";
 import { drawHeadlines } from "/study/headlines.js";
 import { heatMap } from "/study/heat_map.js";
@@ -63,6 +66,8 @@ export class SweepPage {
   headlines = h("ul", { class: "headlines card", hidden: true });
   help = h("p", { class: "quiet small" });
   optimise = h("a", { class: "button" }, "Optimise");
+  report = h("a", { class: "button" }, "Report");
+  remove = h("button", { class: "danger", onclick: () => this.removeIt() }, "Delete");
   isFollowed = false;
   /** @type {HTMLButtonElement} */
   cancel;
@@ -96,6 +101,7 @@ export class SweepPage {
     this.logs = logBoxes(this, () => this.changed());
     this.curves = curveChoice(this, () => this.changed());
     this.scatterChoice = scatterChoice(this, () => this.changed());
+    this.configuration = configurationCard(this);
   }
 
   parts() {
@@ -104,7 +110,7 @@ export class SweepPage {
     drawPickers(this);
     return [
       h("div", { class: "head" }, h("div", {}, this.title, this.status, this.tags, this.notes, this.paper),
-        this.buttons), this.pickers, this.headlines, this.chosen,
+        this.buttons), this.configuration.element, this.headlines, this.pickers, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0),
         this.card("Lines", this.lines, 1, { tools: [this.logs.element, this.curves.element] })),
       this.card("Parallel coordinates", this.parallel, 2, { help: this.help }),
@@ -241,6 +247,7 @@ export class SweepPage {
   }
 
   drawTexts() {
+    this.configuration.draw();
     drawHeadlines(this.headlines, this);
     this.table.draw();
     this.logs.draw();
@@ -272,6 +279,8 @@ export class SweepPage {
     this.status.textContent = `${this.sweep.state}: ${parts.join(", ")} of ${plural(counts.total, "job")}${left}`;
     setSeen(this.cancel, isUnderWay(this.sweep));
     setSeen(this.retry, counts.failed + counts.cancelled > 0);
+    this.remove.disabled = isUnderWay(this.sweep);
+    this.remove.title = isUnderWay(this.sweep) ? "Cancel it first" : "";
   }
 
   /// Once: a button that was made anew would lose the focus, and a click that has begun.
@@ -284,11 +293,16 @@ export class SweepPage {
         .catch((error) => notify(error.message, "trouble")) }, text);
     this.cancel = act("Cancel", cancelSweep);
     this.retry = act("Retry", (sweep) => retrySweep(sweep).then(() => this.failures.doubt()));
+    const isOfStudy = Boolean(this.sweep.study_id);
     this.buttons = h("p", { class: "actions" }, this.cancel, this.retry,
-      h("button", { onclick: () => this.edit() }, "Edit"), this.csv,
+      h("button", { onclick: () => this.edit() }, "Edit"),
+      extendableAxes(this.sweep).length > 0 && !isOfStudy
+        ? h("button", { onclick: () => this.extend() }, "Extend") : null,
+      this.csv, this.report,
       h("a", { class: "button", href: routeTo("analyses", id) }, "Analysis"),
       h("a", { class: "button", href: routeTo("fits", "new", { sweep: id }) }, "Fit"), this.optimise,
-      h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Duplicate"));
+      h("a", { class: "button", href: routeTo("new", "", { from: id }) }, "Duplicate"),
+      isOfStudy ? null : this.remove);
   }
 
   /// Changes name, notes and tags.
@@ -300,9 +314,28 @@ export class SweepPage {
     this.drawHead();
   }
 
-  /// An optimisation begins with the metric that is looked at.
+  /// Adds values to the axes; the page follows their jobs.
+  async extend() {
+    const extended = await extendDialog(this.sweep);
+    if (extended && !this.signal.aborted) await this.update();
+  }
+
+  async removeIt() {
+    if (!await confirmed(`Delete ${this.sweep.name || this.sweep.id} with its results?`, "Delete")) return;
+    try {
+      await deleteSweep(this.sweep.id);
+      location.hash = "#/";
+    } catch (error) {
+      notify(error.message, "trouble");
+    }
+  }
+
+  /// An optimisation begins with the metric that is looked at, and the report shows it.
   drawLinks() {
-    this.optimise.href = routeTo("optimisations", "new", { sweep: this.sweep.id, metric: this.view.metric });
+    const { id } = this.sweep;
+    const { metric, x } = this.view;
+    this.report.href = reportUrl(id, { metric, ...(typeof this.rows[0]?.[x] === "number" ? { x } : {}) });
+    this.optimise.href = routeTo("optimisations", "new", { sweep: id, metric });
   }
 
   /** @param {string} id */
