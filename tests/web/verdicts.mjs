@@ -26,10 +26,11 @@ test("flexibility helps or harms by replicates only", async () => {
   const parameters = { ...short, clearance_mm: 0.2 };
   const sweep = { crank_velocity_rad_s: [9, 11], coupler: ["rigid", "flexible"] };
   const single = await runSweep({ name: "single runs", parameters, sweep });
-  assert.ok((await ask(`/v1/sweeps/${single.id}/flexibility`)).some(({ verdict }) => ["helps", "harms"].includes(verdict)), "something to hold back");
+  assert.ok((await ask(`/v1/sweeps/${single.id}/flexibility`)).every(({ verdict }) => verdict === "one_run_each"));
   const page = await visit(`#/analyses/${single.id}`);
   await page.getByText("Each ratio comes from one run each, which may scatter by more than they differ: replicates give a verdict.").waitFor();
   assert.deepEqual((await cells(page, "Rigid and flexible")).map((row) => row.slice(2, 4)), [["–", "one run each"], ["–", "one run each"]]);
+  assert.equal(await page.getByText(/[Rr]eversal/).count(), 0, "nothing is known of reversals");
   await expectAccessible(page);
   await picture(page, "flexibility_single");
   await leave(page);
@@ -51,7 +52,11 @@ test("a limit that was not exceeded says at how many values was looked, and has 
   const page = await visit(`#/searches/${single.id}`);
   await page.getByText("whose run keeps Max penetration [µm] at or below 1000").waitFor();
   await page.getByText("One run at each value: how much the metric scatters is not known").waitFor();
-  assert.deepEqual((await cells(page, "Limits"))[0].slice(1, 4), ["not exceeded at any of the 3 values looked at", "beyond 0.3", "3"]);
+  assert.deepEqual((await cells(page, "Limits"))[0].slice(1, 4), ["not exceeded at any of the 3 values looked at Look at more", "beyond 0.3", "3"]);
+  await page.getByRole("link", { name: "Look at more" }).click();
+  await page.waitForURL(/searches\/new/);
+  assert.equal(await page.getByLabel("Initial values").inputValue(), "5");
+  await page.goBack();
   assert.equal(await page.getByText(/in all/).count(), 0);
   await page.locator(".chart canvas").nth(1).waitFor();
   await expectAccessible(page);

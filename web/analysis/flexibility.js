@@ -21,7 +21,7 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
   const drawing = h("div", { class: "chart tall", hidden: !along });
   const reversed = rows.filter((row) => row.reverses_from !== null);
   const single = rows.filter(isSingle).length;
-  const said = reversed.length === 0
+  const said = single === rows.length ? "" : reversed.length === 0
     ? "No reversal: the ratio does not cross 1 by more than 0.1 %, the accuracy of peaks."
     : `Reversal: ${reversed.map((row) => reversalOf(row, axes)).join("; ")}.`;
   element.replaceChildren(h("p", {}, along ? said : ""), single > 0
@@ -38,10 +38,9 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
 
 /** @typedef {Api.Get<"/v1/sweeps/{id}/flexibility">[number]} Pair */
 
-/// True of a pair whose range is that of no replicates: how far its values scatter is not known.
+/// True of a pair without replicates: how far its values scatter is not known.
 /** @param {Pair} row */
-const isSingle = (row) => row.verdict === "one_run_each" || Number(row.rigid_count) < 2
-  || Number(row.flexible_count) < 2;
+const isSingle = ({ verdict }) => verdict === "one_run_each";
 
 /** @param {number} single  @param {number} all */
 function singleText(single, all) {

@@ -6,6 +6,8 @@ import { nameOf, plural, titleOf, unitOf } from "/core/format.js";
 import { countJobs } from "/form/request.js";
 import { addNumber, helpOf, StudyForm } from "/form/study_form.js";
 
+const mostFirst = 1000;  // initial values that the service takes
+
 /// A name with the unit of a parameter or metric: "From [mm]".
 const inUnit = (name, of) => (unitOf(of) ? `${name} [${unitOf(of)}]` : name);
 
@@ -14,6 +16,15 @@ export class SearchForm extends StudyForm {
   static route = "searches";
   static title = "New search";
   static schema = "SearchRequest";
+
+  /// With more initial values, where the address has a number of them.
+  /** @param {any} request  @param {URLSearchParams} query */
+  static adjusted(request, query) {
+    const first = Number(query.get("first"));
+    if (!(first >= 2)) return request;
+    return { ...request, over: Object.fromEntries(Object.entries(request.over)
+      .map(([parameter, way]) => [parameter, { ...way, first: Math.min(first, mostFirst) }])) };
+  }
 
   constructor(fields, schemas, request) {
     super(fields, schemas, request);

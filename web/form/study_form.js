@@ -24,7 +24,7 @@ export async function showStudyForm(main, Form, begin, query, signal) {
     from ? Form.api.find(from, signal).then((study) => study.request) : query.has("empty") ? {}
       : begin(query, signal),
     Form.load(signal)]);
-  const form = new Form(fieldsOf(parameters), schemas, request, more);
+  const form = new Form(fieldsOf(parameters), schemas, Form.adjusted(request, query), more);
   form.signal = signal;
   main.replaceChildren(h("h1", {}, Form.title),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo(Form.route, "new") }, "Load example"),
@@ -40,6 +40,10 @@ export class StudyForm extends RequestForm {
   static route = "";
   static title = "";
   static schema = "";
+
+  /// Request with what an address changes in it.
+  /** @param {any} request  @param {URLSearchParams} _query */
+  static adjusted(request, _query) { return request; }
 
   /// Finds what a form needs beside its request.
   /** @param {AbortSignal} _signal  @returns {Promise<any>} */

@@ -3,6 +3,7 @@
 import { searches } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { exact, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
+import { routeTo } from "/core/route.js";
 import { hasReplicates, limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
@@ -66,6 +67,14 @@ export class LimitView extends StudyView {
       (index) => { this.shown = Number(index); this.drawn[1]?.draw(); }));
   }
 
+  /// Offer to look at more values, where the bound was not exceeded: a narrow peak may lie between them.
+  /** @param {Api.Limit} limit */
+  moreValues({ verdict, points }) {
+    if (verdict !== "never_exceeded") return null;
+    return [" ", h("a", { href: routeTo("searches", "new", { from: this.study.id, first: 2 * points.length - 1 }) },
+      "Look at more")];
+  }
+
   rows() {
     return this.study.limits.map((limit) => this.row(limit));
   }
@@ -78,7 +87,7 @@ export class LimitView extends StudyView {
     const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}`
       : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
     return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))),
-      h("td", {}, verdictOf(limit)), h("td", {}, between),
+      h("td", {}, verdictOf(limit), this.moreValues(limit)), h("td", {}, between),
       ...(hasReplicates(this.study) ? [limit.band_from, limit.band_to].map((end) => h("td",
         { class: "number" }, number(end))) : []),
       h("td", { class: "number" }, String(limit.evaluations)),
