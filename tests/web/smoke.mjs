@@ -530,7 +530,7 @@ test("a sweep says what its results mean", async () => {
   await picture(page, "analyses", { fullPage: true });
   await page.getByRole("link", { name: "Report" }).click();
   await page.getByRole("heading", { name: "Reproduction" }).waitFor();
-  assert.equal(await page.locator("svg").count(), 1);
+  assert.equal(await page.locator("svg").count(), 2, "heat maps and charts");
   assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector("table")).borderCollapse), "collapse", "its style is allowed");
   await expectAccessible(page);
   await picture(page, "report", { fullPage: true });

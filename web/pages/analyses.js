@@ -33,7 +33,7 @@ export async function show(main, { id, query, signal }) {
     (metric) => { analysed.metric = metric; rememberQuery({ metric }); draw(); });
   main.replaceChildren(h("div", { class: "head" }, h("h1", {}, `Analysis of ${name}`),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "Sweep"),
-      h("a", { class: "button", href: reportUrl(id) }, "Report"))),
+      h("a", { class: "button", href: reportUrl(id, { metric: analysed.metric }) }, "Report"))),
   h("p", { class: "actions" }, pick), cards);
   draw();
 }
