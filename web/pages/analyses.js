@@ -27,13 +27,17 @@ export async function show(main, { id, query, signal }) {
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: analysis of ${name}`;
   const cards = h("div");
-  const draw = () => cards.replaceChildren(...cardsFor(analysed)
-    .map(([title, help, make]) => card(name, title, help, make, analysed, signal)));
+  const report = h("a", { class: "button" }, "Report");
+  const draw = () => {
+    report.href = reportUrl(id, { metric: analysed.metric });
+    cards.replaceChildren(...cardsFor(analysed)
+      .map(([title, help, make]) => card(name, title, help, make, analysed, signal)));
+  };
   const pick = quantityChoice("Metric", "metrics", metrics, analysed.metric,
     (metric) => { analysed.metric = metric; rememberQuery({ metric }); draw(); });
   main.replaceChildren(h("div", { class: "head" }, h("h1", {}, `Analysis of ${name}`),
     h("p", { class: "actions" }, h("a", { class: "button", href: routeTo("sweeps", id) }, "Sweep"),
-      h("a", { class: "button", href: reportUrl(id, { metric: analysed.metric }) }, "Report"))),
+      report)),
   h("p", { class: "actions" }, pick), cards);
   draw();
 }
