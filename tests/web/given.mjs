@@ -32,6 +32,7 @@ export async function visitRows(axes, rows, { query = "", parameters = {}, failu
   const give = (pattern, found) => page.route(pattern, (route) => route.fulfill({ json: found(new URL(route.request().url())) }));
   await give("**/v1/sweeps/swp_given", () => ({ ...sweep, ...more }));
   await give("**/v1/sweeps/swp_given/paper**", () => paperRows(1));
+  await give("**/v1/jobs/*", () => ({ run: null }));
   await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
   if (isAway) await page.route(reasons, (route) => route.abort());
   await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
