@@ -224,8 +224,8 @@ test("a sweep tells its configuration, is extended, reported and deleted", async
     sweep: { clearance_mm: { from: 0.1, to: 0.2, count: 2 }, coupler: ["rigid"] } });
   const page = await visit(`#/sweeps/${sweep.id}`);
   const configuration = page.locator("details", { has: page.getByText("Configuration", { exact: true }) }).first();
-  const values = async () => Object.fromEntries(await configuration.locator("dl > div").evaluateAll((rows) =>
-    rows.filter((row) => !row.hidden).map((row) => [...row.children].map((part) => part.textContent))));
+  const values = async () => Object.fromEntries(await configuration.locator("dl > div").evaluateAll((parts) =>
+    parts.filter((each) => !each.hidden).map((each) => [...each.children].map((part) => part.textContent))));
   await configuration.getByText(/^RPSUP \d.*engine/).waitFor();
   const shown = await values();
   assert.deepEqual([shown.Clearance, shown.Coupler, shown.Duration, shown["Everything else"]],

@@ -53,6 +53,14 @@ function durationText({ started_at: started, ended_at: ended }) {
   return ended ? span(seconds) : `${span(seconds)} so far`;
 }
 
+/// Name and text of a line; without a text there is no line.
+/** @type {(name: string, text: string) => [string, string]} */
+const entry = (name, text) => [name, text];
+
+/** @param {any} design */
+const designEntries = (design) => Object.entries(design?.over ?? {})
+  .map(([key, axis]) => entry(nameOf(key), `${axisText(axis, key)}, ${design.type.replaceAll("_", " ")}`));
+
 /// The card, which asks for the program of the first job that has one.
 /**
  * @param {SweepPage} page
@@ -77,16 +85,14 @@ export function configurationCard(page) {
   function draw() {
     const { sweep, schema } = page;
     const { request } = sweep;
-    /** @type {[string, string | HTMLElement][]} */
     const entries = [
-      ...Object.entries(request.sweep ?? {}).map(([key, axis]) => [nameOf(key), axisText(axis, key)]),
-      ...Object.entries(request.design?.over ?? {}).map(([key, axis]) => [nameOf(key),
-        `${axisText(axis, key)}, ${request.design.type.replaceAll("_", " ")}`]),
-      ...(request.cases ? [["Cases", String(request.cases.length)]] : []),
-      ...(request.replicates ? [["Replicates", replicatesText(request.replicates)]] : []),
-      ...fixedParameters(request, schema).map(([key, value]) => [nameOf(key), valueText(value, key)]),
-      ["Everything else", "defaults"], ["Submitted", moment(sweep.created_at)],
-      ["Computing time", durationText(sweep)]];
+      ...Object.entries(request.sweep ?? {}).map(([key, axis]) => entry(nameOf(key), axisText(axis, key))),
+      ...designEntries(request.design),
+      entry("Cases", request.cases ? String(request.cases.length) : ""),
+      entry("Replicates", request.replicates ? replicatesText(request.replicates) : ""),
+      ...fixedParameters(request, schema).map(([key, value]) => entry(nameOf(key), valueText(value, key))),
+      entry("Everything else", "defaults"), entry("Submitted", moment(sweep.created_at)),
+      entry("Computing time", durationText(sweep))];
     list.replaceChildren(...entries.filter(([, text]) => text !== "")
       .map(([name, text]) => h("div", {}, h("dt", {}, name), h("dd", {}, text))), program);
     learnProgram();
