@@ -100,6 +100,22 @@ class Sweeps(WithProgram):
             sweep.status()
         self.assertEqual(caught.exception.status, 404)
 
+    def test_name_notes_and_tags(self):
+        sweep = self.client.submit(name="first", clearance_mm=[0.1], **TINY).wait()
+        self.assertEqual(sweep.describe(notes="pin B", tags=("dry", "rig 2"))["tags"], ["dry", "rig 2"])
+        status = sweep.describe(name="second")
+        self.assertEqual((status["name"], status["notes"], status["tags"]), ("second", "pin B", ["dry", "rig 2"]))
+        with self.assertRaises(rpsup.Error) as refused:
+            sweep.describe(tags=["x" * 51])
+        self.assertEqual([fault.pointer for fault in refused.exception.faults], ["/tags/0"])
+
+    def test_estimate_stores_nothing(self):
+        before = len(self.client.newest(rpsup.Sweep))
+        cost = self.client.estimate(clearance_mm=[0, 0.25, 0.3], coupler=["rigid", "flexible"], **SHORT)
+        self.assertEqual((cost["jobs"], cost["stored_jobs"], cost["new_jobs"]), (6, 4, 2))
+        self.assertGreater(cost["seconds"], 0)
+        self.assertEqual(len(self.client.newest(rpsup.Sweep)), before)
+
     def test_wait_ends_by_its_timeout_and_after_a_cancel(self):
         sweep = self.client.submit(crank_velocity_rad_s=[5, 6], duration_s=600)
         with self.assertRaisesRegex(TimeoutError, "after 0.3 s"):

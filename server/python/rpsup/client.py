@@ -63,21 +63,14 @@ class Client:
         Raises:
             Error: the request has faults; `faults` has all of them. Nothing is stored then.
         """
-        whole = _request_of(request)
-        shared, axes = dict(whole.get("parameters", {})), dict(whole.get("sweep", {}))
-        for name, value in given.items():
-            if name == "parameters":
-                shared.update(value)
-            elif name == "sweep":
-                axes.update(value)
-            elif name in REQUEST_KEYS:
-                whole[name] = value
-            elif _is_axis(value):
-                axes[name] = value
-            else:
-                shared[name] = value
-        whole.update({key: value for key, value in (("parameters", shared), ("sweep", axes)) if value})
-        return self._create(Sweep, whole)
+        return self._create(Sweep, _sweep_request(request, given))
+
+    def estimate(self, request: Request = None, **given: Any) -> Row:
+        """Cost of a sweep before it is submitted: jobs, new_jobs, seconds, bytes, … Arguments of `submit`."""
+        answer = self._transport.send("POST", "/v1/sweeps", {"dry_run": "true"},
+                                      _sweep_request(request, given))
+        cost: Row = answer.json()
+        return cost
 
     def submit_job(self, parameters: Request = None, **given: Any) -> Job:
         """Submits one job. Parameters are a dict or JSON text, or given by name, or both."""
@@ -178,6 +171,11 @@ class Client:
         """Value of the JSON that a path answers to a request."""
         return self._transport.send("POST", path, body=body, again=again).json()
 
+    def patch(self, path: str, body: Body) -> Row:
+        """Changes what a path names, and returns it."""
+        changed: Row = self._transport.send("PATCH", path, body=body).json()
+        return changed
+
     def delete(self, path: str) -> None:
         """Deletes what a path names."""
         self._transport.send("DELETE", path)
@@ -274,6 +272,25 @@ def start(db: Optional[str] = None, threads: Optional[int] = None, program: Opti
         ProgramError: the program is not installed, or did not start; the text says why.
     """
     return Service(Program(db, threads, program))
+
+
+def _sweep_request(request: Request, given: Mapping[str, Any]) -> Dict[str, Any]:
+    """Request of a sweep with keys and parameters that are given by name."""
+    whole = _request_of(request)
+    shared, axes = dict(whole.get("parameters", {})), dict(whole.get("sweep", {}))
+    for name, value in given.items():
+        if name == "parameters":
+            shared.update(value)
+        elif name == "sweep":
+            axes.update(value)
+        elif name in REQUEST_KEYS:
+            whole[name] = value
+        elif _is_axis(value):
+            axes[name] = value
+        else:
+            shared[name] = value
+    whole.update({key: value for key, value in (("parameters", shared), ("sweep", axes)) if value})
+    return whole
 
 
 def _request_of(request: Request) -> Dict[str, Any]:

@@ -32,6 +32,12 @@ class Sweep(Study):
         status: Row = self.client.post(f"{self.path}/extend", request)
         return status
 
+    def describe(self, name: Text = None, notes: Text = None,
+                 tags: Optional[Sequence[str]] = None) -> Row:
+        """Changes name, notes or tags; what is left out stays. Returns the status."""
+        given = {"name": name, "notes": notes, "tags": None if tags is None else list(tags)}
+        return self.client.patch(self.path, {key: value for key, value in given.items() if value is not None})
+
     def move(self, executor: str) -> Row:
         """Gives the queued jobs to the executor "local" or "slurm". Returns the status."""
         status: Row = self.client.post(f"{self.path}/move", {"executor": executor})
