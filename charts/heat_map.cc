@@ -37,9 +37,11 @@ ValueRange range_of(const std::vector<HeatMap>& maps) {
   return range;
 }
 
+/// In three digits, or all before the point.
 std::string short_number(double value) {
+  const double size = std::abs(value);
   char text[32];
-  std::snprintf(text, sizeof text, std::abs(value) >= 1e5 || (value != 0.0 && std::abs(value) < 1e-3) ? "%.1e" : "%.3g", value);
+  std::snprintf(text, sizeof text, size >= 1e5 || (size > 0.0 && size < 1e-3) ? "%.1e" : size >= 100.0 ? "%.0f" : "%.3g", value);
   return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -59,6 +60,24 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
   for (const std::string_view metric : metrics) known += (known.empty() ? "" : ", ") + std::string(metric);
   throw InvalidRequest(
       std::vector<Fault>{{"/metric", "\"" + wanted + "\" is no metric of this sweep, which has " + known}});
+}
+
+std::string choose_varying_metric(const ResultTable& table) {
+  std::string chosen = choose_metric(table, "");
+  if (chosen == kReplicateMetric) return chosen;
+  for (const std::string_view metric : metrics_of(table)) {
+    const std::size_t column = find_column(table, std::string(metric), "");
+    std::optional<double> least, most;
+    for (const auto& row : table.rows) {
+      const auto value = number_in(row[column]);
+      if (!value) continue;
+      least = std::min(*value, least.value_or(*value));
+      most = std::max(*value, most.value_or(*value));
+    }
+    if (least && *most - *least > 1e-9 * std::max(std::abs(*least), std::abs(*most)))
+      return std::string(metric);
+  }
+  return chosen;
 }
 
 std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted) {

@@ -33,6 +33,10 @@ struct RowGroup {
 ///     metric
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
 
+/// The peak of the slider's acceleration; of other linkages the first metric whose values differ, which no
+/// drive prescribes, or the first one.
+[[nodiscard]] std::string choose_varying_metric(const ResultTable& table);
+
 /// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
 /// first ones, as many at most.
 [[nodiscard]] std::vector<std::string> choose_metrics(const ResultTable& table,

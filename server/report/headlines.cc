@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,16 @@ std::vector<RankedRow> rank_rows(const ReportView& view) {
     if (const auto value = jobs::number_in(view.results.rows[r][view.metric_column]))
       ranked.push_back({*value, r});
   std::ranges::stable_sort(ranked, [](const RankedRow& a, const RankedRow& b) { return a.value > b.value; });
+  return ranked;
+}
+
+/// Of each setting the row with the largest value: replicates of one would fill the list.
+std::vector<RankedRow> rank_settings(const ReportView& view) {
+  std::set<std::string> seen;
+  std::vector<RankedRow> ranked = rank_rows(view);
+  std::erase_if(ranked, [&](const RankedRow& at) {
+    return !seen.insert(view.setting_of(view.results.rows[at.row])).second;
+  });
   return ranked;
 }
 
@@ -113,7 +124,7 @@ std::string make_headlines(const ReportView& view, const FailureCounts& failures
 }
 
 std::string make_largest(const ReportView& view) {
-  const auto ranked = rank_rows(view);
+  const auto ranked = rank_settings(view);
   if (ranked.size() < 2) return "";
   const auto time = find_time_column(view);
   std::vector<std::string> headings{title_of(view.metric)};

@@ -37,7 +37,9 @@ figcaption, .quiet { color: #555; font-size: 0.85rem; }
   h1 { margin-top: 0; }
   .wide { overflow: visible; }
   table { width: 100%; font-size: 8.5px; }
-  th, td { padding: 0.15rem 0.4rem 0.15rem 0; overflow-wrap: anywhere; }
+  th, td { padding: 0.15rem 0.4rem 0.15rem 0; }
+  th { font-size: 7.5px; }
+  td.number { white-space: nowrap; }
   tr { break-inside: avoid; }
   .headlines { font-size: 12px; }
   figcaption, .quiet { font-size: 9px; }
@@ -128,8 +130,8 @@ std::string make_page(const std::string& title, const std::string& body) {
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-" +
          style_hash() +
          "'\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escape(title) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" + body +
-         "</body>\n</html>\n";
+         escape(title) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n<main>\n" +
+         body + "</main>\n</body>\n</html>\n";
 }
 
 std::string page_policy() {

@@ -61,6 +61,10 @@ SplitKey split(std::string_view key) {
 }  // namespace
 
 std::string name_of(std::string_view key) {
+  // "linkage.bodies.rod.mass" is the rod's mass.
+  for (const std::string_view part : {"linkage.bodies.", "linkage.joints.", "linkage.springs.",
+                                      "linkage.loads.", "linkage.accelerometers.", "linkage."})
+    if (key.starts_with(part)) return name_of(key.substr(part.size()));
   std::string name(split(key).name);
   std::ranges::replace(name, '_', ' ');
   std::ranges::replace(name, '.', ' ');

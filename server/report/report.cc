@@ -29,7 +29,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMostSets = 40;  ///< rows of a table that people read
 
-/// A table with titles as headings, without some of its columns.
+/// A table with titles as headings and words of people, without some of its columns, and its first rows.
 std::string make_titled_table(const jobs::ResultTable& table, const std::vector<std::string>& left_out) {
   std::vector<std::size_t> kept;
   std::vector<std::string> headings;
@@ -39,31 +39,82 @@ std::string make_titled_table(const jobs::ResultTable& table, const std::vector<
     headings.push_back(title_of(table.columns[c]));
   }
   std::vector<std::vector<json>> rows;
-  for (const auto& row : table.rows) {
+  for (std::size_t r = 0; r < std::min(table.rows.size(), kMostSets); ++r) {
     std::vector<json> cells;
-    for (const std::size_t c : kept) cells.push_back(row[c]);
+    for (const std::size_t c : kept) {
+      std::string text = table.rows[r][c].is_string() ? table.rows[r][c].get<std::string>() : "";
+      std::ranges::replace(text, '_', ' ');
+      cells.push_back(text.empty() ? table.rows[r][c] : json(text));
+    }
     rows.push_back(std::move(cells));
   }
-  return make_table(headings, rows);
+  const std::string more = table.rows.size() > kMostSets
+                               ? "<p class=\"quiet\">The first " + std::to_string(kMostSets) + " of " +
+                                     std::to_string(table.rows.size()) + " rows.</p>\n"
+                               : "";
+  return make_table(headings, rows) + more;
+}
+
+/// Whether a table has more in a column than that value.
+bool says_more_than(const jobs::ResultTable& table, const std::string& name, const json& value) {
+  const std::size_t column = jobs::find_column(table, name, "");
+  return std::ranges::any_of(table.rows, [&](const auto& row) { return row[column] != value; });
 }
 
 std::string heading(const std::string& text) { return "<h2>" + escape(text) + "</h2>\n"; }
+
+/// "5 to 15 rad/s, 25 values"; of a list its values.
+std::string axis_text(const json& axis, const std::string& key) {
+  if (axis.is_object()) {
+    const std::string ends = value_text(axis.at("from"), "") + " to " + value_text(axis.at("to"), key);
+    return axis.contains("count") ? ends + ", " + axis.at("count").dump() + " values" : ends;
+  }
+  constexpr std::size_t kMostShown = 12;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(axis.size(), kMostShown); ++k)
+    text += (k > 0 ? ", " : "") + value_text(axis[k], key);
+  return axis.size() > kMostShown ? text + ", … (" + std::to_string(axis.size()) + " values)" : text;
+}
+
+/// What is varied and what was given, a row each; descriptions stand in the request.
+void add_configuration(const json& request, std::vector<std::vector<json>>& rows) {
+  const auto add = [&](const std::string& key, const json& value, const auto& text_of) {
+    rows.push_back({title_of(key).substr(0, title_of(key).find(" [")), text_of(value, key)});
+  };
+  const json axes = request.value("sweep", json::object());
+  for (const auto& [key, axis] : axes.items()) add(key, axis, axis_text);
+  if (request.contains("design"))
+    for (const auto& [key, range] : request.at("design").at("over").items()) add(key, range, axis_text);
+  const json parameters = request.value("parameters", json::object());
+  for (const auto& [key, value] : parameters.items())
+    if (value.is_primitive()) add(key, value, value_text);
+}
+
+/// "2026-11-27 21:10:40 UTC" of a time as the interface has it.
+json readable_time(const json& time) {
+  if (!time.is_string()) return nullptr;
+  std::string text = time.get<std::string>().substr(0, 19);
+  std::ranges::replace(text, 'T', ' ');
+  return text + " UTC";
+}
 
 std::string make_summary(const json& sweep) {
   std::vector<std::vector<json>> rows;
   const auto add = [&](const char* name, const json& value) {
     if (!value.is_null() && value != "") rows.push_back({name, value});
   };
-  add("Sweep", sweep.at("id"));
-  add("State", sweep.at("state"));
-  add("Submitted", sweep.at("created_at"));
-  add("First job started", sweep.at("started_at"));
-  add("Last job ended", sweep.at("ended_at"));
+  add_configuration(sweep.at("request"), rows);
   std::string tags;
   for (const json& tag : sweep.at("tags")) tags += (tags.empty() ? "" : ", ") + tag.get<std::string>();
   add("Tags", tags);
+  std::string jobs = sweep.at("counts").at("total").dump();
   for (const auto& [state, count] : sweep.at("counts").items())
-    if (count != 0) rows.push_back({state == "total" ? "Jobs" : "Jobs, " + state, count});
+    if (state != "total" && count != 0) jobs += ", " + count.dump() + " " + state;
+  add("Jobs", jobs);
+  add("Submitted", readable_time(sweep.at("created_at")));
+  add("First job started", readable_time(sweep.at("started_at")));
+  add("Last job ended", readable_time(sweep.at("ended_at")));
+  add("Sweep", sweep.at("id"));
   const std::string notes = sweep.at("notes");
   return make_table({}, rows) + (notes.empty() ? "" : "<p class=\"notes\">" + escape(notes) + "</p>\n");
 }
@@ -154,19 +205,29 @@ std::string make_appendix(const ReportView& view) {
   return make_table(headings, rows);
 }
 
+std::string make_flexibility(const ReportView& view) {
+  const jobs::ResultTable table = jobs::compare_couplers(view.sweep, view.results, view.metric);
+  if (!says_more_than(table, "verdict", "one_run_each"))
+    return "<p>One run each: whether the flexible coupler helps is not known without replicates.</p>\n";
+  return make_titled_table(
+      table, {"metric", "along", "rigid_spread", "rigid_min", "rigid_max", "flexible_spread", "flexible_min",
+              "flexible_max", "rigid_count", "flexible_count"});
+}
+
+std::string make_sensitivity(const ReportView& view) {
+  return make_titled_table(jobs::calc_sensitivity(view.sweep, view.results, view.metric), {"metric"});
+}
+
 std::string make_analyses(const ReportView& view) {
   std::string html;
-  const auto add = [&](const std::string& title, const auto& calc, const std::vector<std::string>& left_out) {
+  const auto add = [&](const std::string& title, const auto& make) {
     try {
-      const jobs::ResultTable table = calc(view.sweep, view.results, view.metric);
-      html += heading(title) + make_titled_table(table, left_out);
+      html += heading(title) + make(view);
     } catch (const jobs::WrongState&) {  // the analysis does not apply to this sweep
     }
   };
-  add("Effect of flexibility", jobs::compare_couplers,
-      {"metric", "along", "rigid_spread", "rigid_min", "rigid_max", "flexible_spread", "flexible_min",
-       "flexible_max", "rigid_count", "flexible_count"});
-  add("Sensitivity", jobs::calc_sensitivity, {"metric"});
+  add("Effect of flexibility", make_flexibility);
+  add("Sensitivity", make_sensitivity);
   return html;
 }
 

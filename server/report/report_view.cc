@@ -33,7 +33,8 @@ ReportView::ReportView(const nlohmann::json& of_sweep, const jobs::ResultTable& 
                        const ReportQuery& query)
     : sweep(of_sweep),
       results(of_results),
-      metric(jobs::choose_metric(of_results, query.metric)),
+      metric(query.metric.empty() ? jobs::choose_varying_metric(of_results)
+                                  : jobs::choose_metric(of_results, query.metric)),
       metric_column(jobs::find_metric(of_results, metric)),
       axes(of_sweep.at("axes").get<std::vector<std::string>>()),
       along(choose_along(of_results, axes, query.x)),

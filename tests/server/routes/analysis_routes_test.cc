@@ -322,6 +322,9 @@ TEST(Report, BeginsWithTheLargestOfManyCombinations) {
   for (const char* const line : {">0.05 mm, rigid<", ">0.6 mm, rigid<", ">0.05 mm, flexible<"})
     EXPECT_NE(page.find(line), std::string::npos) << line;
   EXPECT_NE(page.find("12 of 24 combinations are drawn"), std::string::npos);
+  for (const char* const wanted : {"<main>", "0.05 to 0.6 mm, 12 values", "rigid, flexible",
+                                   "whether the flexible coupler helps is not known"})
+    EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
   EXPECT_EQ(page.find("Appendix"), std::string::npos);
 }
 
