@@ -27,6 +27,18 @@ std::vector<std::string_view> metrics_of(const ResultTable& table) {
   return metrics;
 }
 
+/// Whether values of a column differ by more than rounding.
+bool varies(const ResultTable& table, std::size_t column) {
+  std::optional<double> least, most;
+  for (const auto& row : table.rows) {
+    const auto value = number_in(row[column]);
+    if (!value) continue;
+    least = std::min(*value, least.value_or(*value));
+    most = std::max(*value, most.value_or(*value));
+  }
+  return least && *most - *least > 1e-9 * std::max(std::abs(*least), std::abs(*most));
+}
+
 }  // namespace
 
 std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer) {
@@ -62,19 +74,14 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
       std::vector<Fault>{{"/metric", "\"" + wanted + "\" is no metric of this sweep, which has " + known}});
 }
 
-std::string choose_varying_metric(const ResultTable& table) {
+std::string choose_free_metric(const ResultTable& table, const std::vector<std::string>& driven) {
   std::string chosen = choose_metric(table, "");
   if (chosen == kReplicateMetric) return chosen;
   for (const std::string_view metric : metrics_of(table)) {
-    const std::size_t column = find_column(table, std::string(metric), "");
-    std::optional<double> least, most;
-    for (const auto& row : table.rows) {
-      const auto value = number_in(row[column]);
-      if (!value) continue;
-      least = std::min(*value, least.value_or(*value));
-      most = std::max(*value, most.value_or(*value));
-    }
-    if (least && *most - *least > 1e-9 * std::max(std::abs(*least), std::abs(*most)))
+    const auto is_of = [&](const std::string& coordinate) {
+      return metric.find("_" + coordinate + "_acceleration") != std::string_view::npos;
+    };
+    if (std::ranges::none_of(driven, is_of) && varies(table, find_column(table, std::string(metric), "")))
       return std::string(metric);
   }
   return chosen;

@@ -33,9 +33,10 @@ struct RowGroup {
 ///     metric
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
 
-/// The peak of the slider's acceleration; of other linkages the first metric whose values differ, which no
+/// The peak of the slider's acceleration; of other linkages the first metric whose values differ and that no
 /// drive prescribes, or the first one.
-[[nodiscard]] std::string choose_varying_metric(const ResultTable& table);
+/// @param driven  coordinates that move by a law
+[[nodiscard]] std::string choose_free_metric(const ResultTable& table, const std::vector<std::string>& driven);
 
 /// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
 /// first ones, as many at most.

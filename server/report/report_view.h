@@ -17,7 +17,7 @@ enum class Appendix { kNone, kRows };
 
 /// What a reader chooses of a report.
 struct ReportQuery {
-  std::string metric{};  ///< empty: see jobs::choose_varying_metric()
+  std::string metric{};  ///< empty: see jobs::choose_free_metric()
   std::string x{};       ///< axis along the charts; empty: the first with different numbers
   Appendix appendix = Appendix::kNone;
 };

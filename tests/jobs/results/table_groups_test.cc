@@ -5,28 +5,29 @@
 
 namespace {
 
-using jobs::choose_varying_metric;
+using jobs::choose_free_metric;
 using jobs::ResultTable;
 
-TEST(ChooseVaryingMetric, LeavesOutWhatADrivePrescribes) {
-  const ResultTable table{
-      .columns = {"job_id", "state", "linkage.bodies.rod.mass_kg", "peak_crank_m_s2", "peak_rod_reaction_n"},
-      .rows = {{"a", "succeeded", 1.0, 120.0, 3.0},
-               {"b", "failed", 2.0, nullptr, nullptr},
-               {"c", "succeeded", 3.0, 120.0, 4.0}}};
-  EXPECT_EQ(choose_varying_metric(table), "peak_rod_reaction_n");
+TEST(ChooseFreeMetric, LeavesOutWhatADrivePrescribes) {
+  const ResultTable table{.columns = {"job_id", "state", "linkage.bodies.rod.mass_kg",
+                                      "peak_crank_acceleration_rad_s2", "peak_rod_reaction_n"},
+                          .rows = {{"a", "succeeded", 1.0, 110.0, 3.0},
+                                   {"b", "failed", 2.0, nullptr, nullptr},
+                                   {"c", "succeeded", 3.0, 120.0, 4.0}}};
+  EXPECT_EQ(choose_free_metric(table, {"crank"}), "peak_rod_reaction_n");
+  EXPECT_EQ(choose_free_metric(table, {}), "peak_crank_acceleration_rad_s2");
 }
 
-TEST(ChooseVaryingMetric, IsTheFirstOneIfNoneVaries) {
+TEST(ChooseFreeMetric, IsTheFirstOneIfNoneVaries) {
   const ResultTable table{.columns = {"job_id", "state", "one_m", "other_m"},
                           .rows = {{"a", "succeeded", 1.0, 1.0}, {"b", "succeeded", 1.0, 1.0 + 1e-12}}};
-  EXPECT_EQ(choose_varying_metric(table), "one_m");
+  EXPECT_EQ(choose_free_metric(table, {}), "one_m");
 }
 
-TEST(ChooseVaryingMetric, IsThePeakOfTheSliderWhereThereIsOne) {
+TEST(ChooseFreeMetric, IsThePeakOfTheSliderWhereThereIsOne) {
   const ResultTable table{.columns = {"job_id", "state", "impact_count", "peak_slider_acceleration_m_s2"},
                           .rows = {{"a", "succeeded", 1, 5.0}, {"b", "succeeded", 2, 5.0}}};
-  EXPECT_EQ(choose_varying_metric(table), "peak_slider_acceleration_m_s2");
+  EXPECT_EQ(choose_free_metric(table, {}), "peak_slider_acceleration_m_s2");
 }
 
 }  // namespace
