@@ -112,8 +112,9 @@ test("the header leads to help and to the interface, which leads back, in the da
   await picture(page, "help");
   await page.getByRole("link", { name: "API", exact: true }).click();
   await page.getByRole("heading", { name: /^RPSUP parameter studies/ }).waitFor();
-  const filter = () => page.evaluate(() => getComputedStyle(document.documentElement).filter);
-  assert.match(await filter(), /invert/);
+  const ground = () => page.evaluate(() => getComputedStyle(document.querySelector(".swagger-ui")).backgroundColor);
+  assert.equal(await ground(), "rgb(16, 20, 24)");
+  await expectAccessible(page);
   await picture(page, "docs_dark");
   await page.getByRole("link", { name: "Back to RPSUP" }).click();
   await page.getByRole("heading", { name: "Sweeps" }).waitFor();
@@ -121,7 +122,10 @@ test("the header leads to help and to the interface, which leads back, in the da
   await page.getByLabel("Theme").selectOption("light");
   await page.goto(`${url}/docs`);
   await page.getByRole("heading", { name: /^RPSUP parameter studies/ }).waitFor();
-  assert.equal(await filter(), "none");
+  assert.equal(await ground(), "rgb(246, 247, 249)");
+  await page.locator("#operations-service-getHealth .opblock-summary-control").click();
+  await page.getByRole("button", { name: "Execute" }).waitFor();
+  await expectAccessible(page);
   await leave(page);
 });
 
