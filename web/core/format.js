@@ -39,13 +39,35 @@ export function unitOf(column) {
   return suffixes.find(([suffix]) => column.endsWith(suffix))?.[1] ?? "";
 }
 
-/// "peak_slider_acceleration_m_s2" as "Peak slider acceleration".
+const insideLinkage = /^linkage\.((bodies|joints|springs|loads|accelerometers)\.)?/;
+
+/// "peak_slider_acceleration_m_s2" as "Peak slider acceleration", "linkage.joints.crank.drive.velocity_rad_s" as
+/// "Crank drive velocity".
 /** @param {string} column */
 export function nameOf(column) {
   const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
   const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ")
-    .replaceAll("_", " ").trim();
+    .replace(insideLinkage, "").replaceAll(/[_.]/g, " ").trim();
   return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/// Kinds of channels that the names of described linkages leave to the unit.
+/** @type {[RegExp, string][]} */
+const kindsOfChannels = [[/_(rad|m)_s2$/, "acceleration"], [/_(rad|m)_s$/, "velocity"], [/_rad$/, "angle"],
+  [/_drive_n$/, "force"], [/_drive_n_m$/, "torque"]];
+
+/// A channel by what it shows: "crank_rad_s2" as "Crank acceleration".
+/** @param {string} channel */
+export function nameOfChannel(channel) {
+  const kind = kindsOfChannels.find(([unit]) => unit.test(channel))?.[1] ?? "";
+  return kind === "" || channel.includes(kind) ? nameOf(channel) : `${nameOf(channel)} ${kind}`;
+}
+
+/// A channel by what it shows, with its unit.
+/** @param {string} channel */
+export function titleOfChannel(channel) {
+  const unit = unitOf(channel);
+  return unit ? `${nameOfChannel(channel)} [${unit}]` : nameOfChannel(channel);
 }
 
 /// A name with its unit: "Peak slider acceleration [m/s²]". @param unit  where the suffix does not say it rightly

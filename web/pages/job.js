@@ -2,11 +2,11 @@
 // One job, or several laid over each other: what the slider and the journal did, and why.
 import { cancelJob, findJob, findSweep, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
 import { choice, h, notify, part } from "/core/dom.js";
-import { nameOf, number, titleOf, unitOf } from "/core/format.js";
+import { nameOfChannel, number, titleOfChannel } from "/core/format.js";
 import { pause, persist, seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
-import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, titleOfLinkage } from "/run/described.js";
+import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, settingOf, titleOfLinkage } from "/run/described.js";
 import { withEnvelope } from "/run/envelopes.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
@@ -39,7 +39,9 @@ export async function show(main, { id, query, signal }) {
   const [schema, job, ...more] =
     await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
   document.title = `RPSUP: job ${id.slice(-5)}`;
-  const page = new JobPage([job, ...more], schema, query, signal);
+  // What a sweep varies tells jobs of a described linkage apart; a sweep that is gone tells nothing.
+  const sweep = isDescribed(job) && job.sweep_id ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
+  const page = new JobPage([job, ...more], schema, query, signal, sweep?.axes ?? []);
   if (job.state !== "succeeded") {
     await page.waitForEnd(main);
     return;
@@ -68,8 +70,10 @@ class JobPage {
    * @param {any} schema
    * @param {URLSearchParams} query
    * @param {AbortSignal} signal
+   * @param {string[]} axes  of its sweep
    */
-  constructor(jobs, schema, query, signal) {
+  constructor(jobs, schema, query, signal, axes) {
+    this.axes = axes;
     this.jobs = jobs;
     this.job = jobs[0];
     this.schema = schema;
@@ -88,7 +92,8 @@ class JobPage {
     const drive = job.parameters.crank_drive;
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible")
       .map((link) => `flexible ${link}, `).join("");
-    const title = typeof linkage === "object" ? titleOfLinkage(linkage)
+    const title = typeof linkage === "object"
+      ? [titleOfLinkage(linkage), settingOf(job, this.axes)].filter(Boolean).join(", ")
       : `${coupler} coupler, ${bent}clearance ${number(clearance, 6)} mm, ${velocity === undefined
         ? `crank by ${drive?.law ?? drive?.actuator}` : `${number(velocity, 6)} rad/s`}`;
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
@@ -122,7 +127,7 @@ class JobPage {
     const tell = (text) => { trouble.textContent = text; };
     const standing = standingCard();
     const redraw = () => main.replaceChildren(...this.head(), trouble,
-      h("div", { class: "columns even" }, standing.element, runCard(this.job, this.schema)));
+      h("div", { class: "columns even" }, standing.element, runCard(this.job, this.schema, this.axes)));
     redraw();
     let sweep = await this.findItsSweep(tell);
     standing.draw(this.job, sweep, new Date());
@@ -170,7 +175,7 @@ class JobPage {
         && !this.added.includes(channel))));
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
-    const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOf(name)])], "",
+    const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOfChannel(name)])], "",
       (channel) => this.add(channel, add));
     const plots = [this.main,
       joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
@@ -181,7 +186,7 @@ class JobPage {
       !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
     const side = [sceneCard(this.job, all, this.times, this.signal),
       ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs),
-      runCard(this.job, this.schema)];
+      runCard(this.job, this.schema, this.axes)];
     return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal),
       h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
@@ -209,7 +214,7 @@ class JobPage {
     this.mainLife?.abort();
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
-    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOf(acceleration.channel) : "Slider acceleration",
+    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOfChannel(acceleration.channel) : "Slider acceleration",
       { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
         ...this.measuredOf([acceleration.channel])],
         note: peakNote(this.jobs, [acceleration.channel], !acceleration.envelope),
@@ -276,7 +281,7 @@ class JobPage {
 
   channelCard(channel) {
     const life = new AbortController();
-    const card = this.card(`${nameOf(channel)}${unitOf(channel) ? ` [${unitOf(channel)}]` : ""}`, [channel],
+    const card = this.card(titleOfChannel(channel), [channel],
       { signal: AbortSignal.any([this.signal, life.signal]), close: () => {
       life.abort();
       card.remove();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Titles, channels and joints of a described linkage, by the names of its joints.
-import { number } from "/core/format.js";
+import { nameOf, number, unitOf } from "/core/format.js";
 import { withCrosses } from "/run/crosses.js";
 
 /// True for a job of a described linkage, false for one of the RPSUP linkage.
@@ -10,6 +10,31 @@ export const isDescribed = (job) => typeof job.parameters.linkage === "object";
 /// The linkage's title.
 /** @type {(linkage: Api.DescribedLinkage) => string} */
 export const titleOfLinkage = ({ name, joints }) => name ?? `Linkage of ${Object.keys(joints).length} joints`;
+
+/// Numbers and words of a part of a job's parameters by their paths: {"linkage.bodies.rod.mass_kg": 0.2}.
+/** @param {any} value  @param {string} path  @returns {Record<string, number | string>} */
+export function leavesOf(value, path) {
+  if (typeof value !== "object" || value === null) {
+    return ["number", "string"].includes(typeof value) ? { [path]: value } : {};
+  }
+  return Object.assign({}, ...Object.entries(value).map(([key, inner]) => leavesOf(inner, `${path}.${key}`)));
+}
+
+/// What a sweep varies inside the linkage, with the values of a job.
+/** @param {Pick<Api.Job, "parameters">} job  @param {string[]} axes  @returns {[string, number | string][]} */
+export function variedInside({ parameters: { linkage } }, axes) {
+  const leaves = leavesOf(linkage, "linkage");
+  return axes.filter((axis) => axis in leaves).map((axis) => [axis, leaves[axis]]);
+}
+
+/// Values of a job of a sweep in words: "crank drive velocity 8 rad/s, rocker mass 0.3 kg".
+/** @param {Pick<Api.Job, "parameters">} job  @param {string[]} axes */
+export function settingOf(job, axes) {
+  const outside = axes.filter((axis) => typeof (job.parameters[axis] ?? {}) !== "object")
+    .map((axis) => [axis, job.parameters[axis]]);
+  return [...outside, ...variedInside(job, axes)].map(([axis, value]) => [nameOf(axis).toLowerCase(),
+    typeof value === "number" ? number(value, 6) : value, unitOf(axis)].filter(Boolean).join(" ")).join(", ");
+}
 
 /// The channel that stands for the whole run: the first acceleration along a line, else the first one.
 /** @param {string[]} channels */

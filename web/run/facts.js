@@ -3,6 +3,7 @@
 import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
+import { variedInside } from "/run/described.js";
 import { labelsOf } from "/run/labels.js";
 
 /** @param {Api.Job[]} jobs */
@@ -52,15 +53,16 @@ function provenanceOf({ program, libm, ...run }) {
     run.reused && "reused from an earlier run"].filter(Boolean).join("; ");
 }
 
-/** @param {Api.Job} job  @param {any} schema */
-export function runCard(job, schema) {
+/// @param axes  of the job's sweep, of which those inside a described linkage are shown, too
+/** @param {Api.Job} job  @param {any} schema  @param {string[]} axes */
+export function runCard(job, schema, axes) {
   const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
   const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");
   const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)),
-    h("td", {}, schema.properties[name]?.["x-unit"] ?? ""));
+    h("td", {}, schema.properties[name]?.["x-unit"] ?? (name.includes(".") ? unitOf(name) : "")));
   const facts = job.run ? provenanceOf(job.run) : "not completed";
   return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
-    h("table", {}, h("tbody", {}, set.filter(([name]) => !defaults(name)).map(row))),
+    h("table", {}, h("tbody", {}, [...variedInside(job, axes), ...set.filter(([name]) => !defaults(name))].map(row))),
     h("details", {}, h("summary", {}, "Parameters at their defaults"),
       h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
 }

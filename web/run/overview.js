@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole run in a strip. The stretch that all plots show is marked in it; drawing over the strip sets another one.
 import { h, laidOut } from "/core/dom.js";
-import { nameOf } from "/core/format.js";
+import { nameOfChannel } from "/core/format.js";
 import { colour, lineColour, onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { loadAligned } from "/run/plot_data.js";
@@ -18,7 +18,7 @@ const height = 64;
 export function overview(job, envelope, times, signal) {
   const element = h("div",
     { class: "overview", role: "img",
-      "aria-label": `${nameOf(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots `
+      "aria-label": `${nameOfChannel(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots `
         + `show. The sliders below set it too.` });
   make(element, job, envelope, times, signal)
     .catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });

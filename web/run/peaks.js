@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Peaks of curves, from the metrics: these are found inside the integration's steps, curves join samples.
-import { nameOf, number, unitOf } from "/core/format.js";
+import { nameOfChannel, number, unitOf } from "/core/format.js";
 import { labelsOf } from "/run/labels.js";
 
 const unitOfAcceleration = /_((m|rad)_s2)$/;
@@ -49,7 +49,7 @@ function steadyText(metrics, key) {
 /** @param {Api.Job[]} jobs  @param {string[]} channels  @param {boolean} hasLines */
 export function peakNote(jobs, channels, hasLines = true) {
   const labels = labelsOf(jobs);
-  const nameFor = (channel, j) => [channels.length > 1 && nameOf(channel), jobs.length > 1 && labels[j]].filter(Boolean)
+  const nameFor = (channel, j) => [channels.length > 1 && nameOfChannel(channel), jobs.length > 1 && labels[j]].filter(Boolean)
     .join(", ");
   const peaks = jobs.flatMap((job, j) => channels.map((channel) => [nameFor(channel, j), peakOf(job, channel)]))
     .filter(([, peak]) => peak !== null);

@@ -2,7 +2,7 @@
 // A plot over time in a card, with its buttons.
 import { h } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
-import { nameOf } from "/core/format.js";
+import { nameOfChannel } from "/core/format.js";
 import { defines } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { labelsOf } from "/run/labels.js";
@@ -43,7 +43,7 @@ export function tracesOf(jobs, channels) {
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;
     const level = envelope ? undefined : peakLevel(job, channel);
-    const name = channels.length > 1 || !several ? nameOf(channel) : "";
+    const name = channels.length > 1 || !several ? nameOfChannel(channel) : "";
     return { job: job.id, channel, envelope, level,
       name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
       colour: () => lineColour(j * channels.length + c) };

@@ -21,9 +21,10 @@ export function bodyColours(linkage) {
     ...others("springs", linkage.springs, springColour), ...others("loads", linkage.loads, loadColour)];
 }
 
+/// Colours by the order of the names: the service hands out the bodies in another order than they were written in.
 /** @param {Api.DescribedLinkage} linkage  @returns {Record<string, string>} */
 function coloursOf(linkage) {
-  return Object.fromEntries(Object.keys(withCrosses(linkage).bodies)
+  return Object.fromEntries(Object.keys(withCrosses(linkage).bodies).sort()
     .map((name, index) => [name, colours[index % colours.length]]));
 }
 
