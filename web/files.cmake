@@ -9,6 +9,7 @@ set(page_files
   analysis/motion.js
   analysis/paper.js
   analysis/parts.js
+  analysis/polar.js
   analysis/sensitivity.js
   analysis/surrogate.js
   analysis/wear.js

@@ -126,7 +126,8 @@ test("what tells lines apart stands above them, and in the saved picture", async
 test("the paper's statements over many settings tell in how many they hold, and what decides each", async () => {
   const axes = ["clearance_mm", "crank_velocity_rad_s", "coupler"];
   const page = await visitRows(axes, [10, 15].map((velocity, k) => row(k, { clearance_mm: 0.25, crank_velocity_rad_s: velocity, coupler: "rigid", [metric]: velocity })));
-  await page.getByText("The paper's statements: 5 of 7 hold; the sweep has no jobs of 1").waitFor();
+  await page.getByText("The paper's statements: 5 of the 6 statements that can be judged hold; "
+    + "1 needs jobs that the sweep does not have; one run each").waitFor();
   await page.route("**/v1/sweeps/swp_given/{flexibility,surrogate,bifurcation}**", (route) => route.fulfill({ status: 409, contentType: "application/problem+json", body: '{"detail": "not here"}' }));
   await page.route("**/v1/sweeps/swp_given/paper**", (route) => route.fulfill({ json: paperRows(1000) }));
   await page.getByRole("link", { name: "The paper's statements" }).click();

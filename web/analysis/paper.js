@@ -26,13 +26,14 @@ export async function paperCard(element, { sweep }, signal) {
   const [numbered, others] = split(rows);
   const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }),
     download: `${sweep.name || sweep.id} paper.csv` };
-  const note = singleRuns(sweep)
+  const isSingle = singleRuns(sweep) !== "";
+  const note = isSingle
     ? [h("p", { role: "note" }, "One run each: replicates would show which ratios scatter.")] : [];
   element.replaceChildren(...note, statements("The paper's statements", numbered,
-    [["No.", (row) => row.number, "of"]]),
+    isSingle, [["No.", (row) => row.number, "of"]]),
     ...(others.length === 0 ? []
       : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
-      statements("Other velocities", others)]),
+      statements("Other velocities", others, isSingle)]),
     ...indexParts(numbered), h("p", { class: "actions" }, h("a", csv, "CSV")));
   return null;
 }
@@ -53,7 +54,10 @@ function summaryOf(rows) {
   }
   const missing = numbered.length - told.length;
   const holding = told.filter(({ holds }) => holds).length;
-  return `${holding} of ${numbered.length} hold${missing > 0 ? `; the sweep has no jobs of ${missing}` : ""}`;
+  if (told.length === 0) return `the sweep does not have the jobs that any of the ${numbered.length} needs`;
+  return missing === 0 ? `${holding} of ${numbered.length} hold`
+    : `${holding} of the ${told.length} statements that can be judged hold; ${missing} `
+      + `${missing === 1 ? "needs" : "need"} jobs that the sweep does not have`;
 }
 
 /// Fills a line of the page of a sweep that has ended with the summary.
@@ -73,13 +77,13 @@ export async function drawSummary(line, sweep, signal) {
 const split = (rows) => [rows.filter((row) => row.number !== null), rows.filter((row) => row.number === null)];
 const percent = (part) => `${number(100 * part, 3)} %`;
 
-/** @param {string} label  @param {Statement[]} rows  @param {any[]} first */
-function statements(label, rows, first = []) {
+/** @param {string} label  @param {Statement[]} rows  @param {boolean} isSingle  @param {any[]} first */
+function statements(label, rows, isSingle, first = []) {
   const sentence = ({ text }) => text.charAt(0).toUpperCase() + text.slice(1);
   const printed = ({ paper }) => (paper === null ? "below 1" : number(paper));
   return table(label, rows,
     [...first, ["Statement", sentence, "text"], ["Paper", printed, "paper"], ["This sweep", foundIn, "here"],
-    ["Verdict", verdictOf, "verdict"]], "statements");
+    ["Verdict", (row) => verdictOf(row, isSingle), "verdict"]], "statements");
 }
 
 /** @param {Statement} statement */
@@ -89,10 +93,12 @@ function foundIn({ settings, found_least: least, found_largest: largest }) {
   return from === to ? from : `${from} to ${to}`;
 }
 
-/** @param {Statement} statement */
-function verdictOf({ settings, share, holds }) {
+/// Verdict on a statement. One run each tells too little to say that a statement does not hold.
+/** @param {Statement} statement  @param {boolean} isSingle */
+function verdictOf({ settings, share, holds }, isSingle) {
   if (settings === 0) return "–";
   if (settings > 1) return `in ${percent(share)} of ${plural(settings, "setting")}`;
+  if (isSingle) return h("span", { class: "quiet" }, holds ? "holds" : "outside the paper's");
   return h("span", { class: holds ? "succeeded" : "failed" }, holds ? "holds" : "does not hold");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wear map of the bore in polar coordinates: a bar for the depth in each sector, a colour for each ring along the
 // length.
+import { depthAxis } from "/analysis/polar.js";
 import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
 import { h, notify } from "/core/dom.js";
@@ -54,26 +55,23 @@ async function fill(body, job, signal) {
   h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
     field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
   await load();
-  chart = await makeChart(drawing, () => optionOf(rows), "Worn depth around the bearing", signal);
+  chart = await makeChart(drawing, () => optionOf(rows, drawing.clientWidth), "Worn depth around the bearing", signal);
 }
 
 /// The bore is the circle in the middle; 0 degrees, the bearing's x, points right, and angles go against the clock.
-/** @param {Api.Get<"/v1/jobs/{id}/wear">} rows */
-function optionOf(rows) {
+/** @param {Api.Get<"/v1/jobs/{id}/wear">} rows  @param {number} width */
+function optionOf(rows, width) {
   const rings = [...new Set(rows.map((row) => row.ring))];
   const sectors = rows.filter((row) => row.ring === rings[0])
     .map((row) => String(Math.round((180 / Math.PI) * row.angle_rad * 10) / 10));
   const text = { color: colour("text") };
   return {
+    ...depthAxis(Math.max(...rows.map((row) => row.depth_um)), width),
     legend: { top: 0 }, polar: { radius: ["25%", "80%"] },
     tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
     angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false,
-      axisLabel: { ...text, interval: Math.max(0, Math.round(sectors.length / 12) - 1), hideOverlap: true },
+      axisLabel: { ...text, formatter: (angle) => `${angle}°`, interval: Math.max(0, Math.round(sectors.length / 12) - 1), hideOverlap: true },
         axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24,
-      nameTextStyle: text,
-      axisLabel: { ...text, hideOverlap: true, formatter: (value) => number(value, 2) },
-      splitLine: { lineStyle: { color: colour("line") } } },
     series: rings.map((ring, index) =>
       ({ type: "bar", coordinateSystem: "polar",
         name: `ring at ${number(rows.find((row) => row.ring === ring)?.position_mm)} mm`, color: lineColour(index),

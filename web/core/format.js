@@ -110,6 +110,13 @@ export function moment(text) {
   return text ? new Date(text).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "medium" }) : "–";
 }
 
+/// A moment in few letters: "27 Nov 2026, 22:21".
+/** @param {string | null} text */
+export function shortMoment(text) {
+  return text ? new Date(text).toLocaleString(undefined,
+    { day: "numeric", month: "short", year: "numeric", hour: "2-digit", minute: "2-digit", hourCycle: "h23" }) : "–";
+}
+
 /** @param {number} count  @param {string} word */
 export function plural(count, word) {
   return `${count.toLocaleString("en")} ${count === 1 ? word : `${word}s`}`;

@@ -85,8 +85,10 @@ export class Marked {
   /// @param mayGo   whether an item can be deleted
   /// @param remove  deletes one
   /// @param done    is called after that
-  /** @param {{ nouns: string[], mayGo: (item: Item) => boolean, remove: (id: string) => Promise<unknown>, done: () => unknown }} how */
-  constructor({ nouns, mayGo, remove, done }) {
+  /// @param also    what else goes, as a sentence after a space
+  /** @param {{ nouns: string[], mayGo: (item: Item) => boolean, remove: (id: string) => Promise<unknown>, done: () => unknown, also?: string }} how */
+  constructor({ nouns, mayGo, remove, done, also = " Results that no others share are deleted, too." }) {
+    this.also = also;
     this.nouns = nouns;
     this.mayGo = mayGo;
     this.remove = remove;
@@ -144,7 +146,7 @@ export class Marked {
     const going = this.#items.filter((item) => this.#ids.has(item.id) && this.mayGo(item));
     const names = going.slice(0, 3).map(({ id, name }) => `“${name || id}”`).join(", ");
     const more = going.length > 3 ? ` and ${going.length - 3} more` : "";
-    if (!(await confirmed(`Delete ${this.count(going.length)}: ${names}${more}? Results that no others share are deleted, too.`,
+    if (!(await confirmed(`Delete ${this.count(going.length)}: ${names}${more}?${this.also}`,
       "Delete"))) return;
     for (const { id } of going) {
       try {

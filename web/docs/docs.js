@@ -8,7 +8,8 @@ if (theme === "light" || theme === "dark") root.dataset.theme = theme;
 
 const systemDark = matchMedia("(prefers-color-scheme: dark)");
 const drawTheme = () => {
-  root.classList.toggle("dark-mode", (root.dataset.theme ?? (systemDark.matches ? "dark" : "light")) === "dark");
+  const drawn = root.dataset.theme ?? (systemDark.matches ? "dark" : "light");
+  root.classList.toggle("dark-mode", drawn === "dark");
 };
 systemDark.addEventListener("change", drawTheme);
 drawTheme();
@@ -49,10 +50,12 @@ function mend() {
     const said = operation.querySelector(".opblock-summary-path")?.textContent ?? "";
     const method = operation.querySelector(".opblock-summary-method")?.textContent ?? "";
     for (const table of operation.querySelectorAll(".responses-table")) {
-      give(table, "aria-label", `Responses of ${method} ${said}${table.matches(".live-responses-table") ? ", live" : ""}`);
+      const live = table.matches(".live-responses-table") ? ", live" : "";
+      give(table, "aria-label", `Responses of ${method} ${said}${live}`);
     }
-    for (const field of operation.querySelectorAll("select, textarea, input")) {
-      if (!field.labels?.length && !field.hasAttribute("aria-label")) give(field, "aria-label", nameOfField(field));
+    const fields = /** @type {NodeListOf<HTMLInputElement>} */ (operation.querySelectorAll("select, textarea, input"));
+    for (const field of fields) {
+      if (!field.labels?.length && !field.ariaLabel) give(field, "aria-label", nameOfField(field));
     }
     for (const text of operation.querySelectorAll("pre")) give(text, "tabindex", "0");
   }

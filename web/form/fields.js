@@ -11,6 +11,13 @@ const ofRpsup =
 /** @type {(path: string) => boolean} */
 export const isOfRpsup = (path) => ofRpsup.test(path);
 
+const ofContact = new RegExp("^((axial|radial|bearing|bristle|contact|friction|stribeck)(_|$)|break_away_ratio$|"
+  + "clearance_mm$|minimum_impact_velocity_m_s$|normal_law$|restitution$|stiffness_law$)");
+
+/// Whether a parameter is of the contact in joints with clearance.
+/** @type {(path: string) => boolean} */
+export const isContact = (path) => ofContact.test(path);
+
 /// One field for each parameter, those of links by their path: {path, kind, unit, default, help, source, schema}.
 export function fieldsOf(schema, prefix = "") {
   return Object.entries(schema.properties).filter(([key]) => key !== "linkage" && !writtenAsJson.includes(key))

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers as people type them: decimal points and commas, lists, and units of entry.
+import { number } from "/core/format.js";
 
-/// One number; NaN for anything else. A single comma is a decimal comma.
+/// Question on a number with three digits after its comma, which may part thousands; empty if there is none.
 /** @param {string} text */
-export function readNumber(text) {
+export function doubtOf(text) {
+  const typed = text.trim();
+  if (!/^[-−+]?[1-9]\d{0,2},\d{3}$/.test(typed)) return "";
+  return `“${typed}” may be ${number(decimal(typed), 7)} or ${typed.replace(",", "")}: write one of these`;
+}
+
+/// A number with a point or a comma before its decimals.
+/** @param {string} text */
+function decimal(text) {
   const typed = text.trim().replaceAll("−", "-");
   if (typed === "") return NaN;
   return Number(/^[^.,]*,[^.,]*$/.test(typed) ? typed.replace(",", ".") : typed);
+}
+
+/// One number; NaN for anything else. A single comma is a decimal comma, if it cannot part thousands.
+/** @param {string} text */
+export function readNumber(text) {
+  return doubtOf(text) ? NaN : decimal(text);
 }
 
 /// Numbers of a list. Commas before a space separate, as do semicolons and spaces; between digits they are
@@ -18,7 +33,7 @@ export function readList(text) {
   const values = [];
   for (const piece of pieces) {
     const inside = piece.split(",");
-    if (inside.length === 2 && text.includes(";")) values.push(readNumber(piece));
+    if (inside.length === 2 && text.includes(";")) values.push(decimal(piece));
     else if (inside.length === 2 && !piece.includes(".") && /^[-−+]?\d+,\d+$/.test(piece)) {
       return { values: [],
         fault: `“${piece}” may be one number or two: write ${inside.join(".")}, or ${inside.join("; ")}` };

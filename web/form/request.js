@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // From what stands in the form to a request, and back.
-import { faultOf, isInside, isOfRpsup, writtenAsJson } from "/form/fields.js";
+import { faultOf, isContact, isInside, isOfRpsup, writtenAsJson } from "/form/fields.js";
 import { jsonText } from "/form/json_text.js";
-import { factorOf, readList, readNumber } from "/form/numbers.js";
+import { doubtOf, factorOf, readList, readNumber } from "/form/numbers.js";
 
 /// Entry of a field at first. The unit is that of entry, empty for the unit of the field.
 export const emptyEntry = () =>
@@ -15,9 +15,10 @@ export function buildRequest(fields, state) {
   const problems = [];
   /** @type {any} */
   const request = { name: state.name.trim() || undefined, parameters: {}, sweep: {} };
+  const clearances = clearancesIn(state.linkage);
   for (const field of fields) {
     const entry = state.entries[field.path];
-    const applies = !isDescription(state.linkage) || !isOfRpsup(field.path);
+    const applies = !isDescription(state.linkage) || !(isOfRpsup(field.path) || isIdle(field.path, clearances));
     const refuse = (detail) => problems.push({ path: field.path, detail });
     if (entry && applies) addEntry(field, entry, request, refuse);
   }
@@ -36,6 +37,22 @@ export function buildRequest(fields, state) {
   if (Number(state.priority) !== 0) request.priority = Number(state.priority);
   if (!state.reuse) request.reuse = false;
   return { request: JSON.parse(JSON.stringify(request)), problems };
+}
+
+/// The clearances of the joints that a text describes; null if it is no description, or cannot be read.
+/** @param {string} text  @returns {any[] | null} */
+export function clearancesIn(text) {
+  try {
+    return Object.values(JSON.parse(text).joints).map((joint) => joint.clearance).filter((each) => each !== undefined);
+  } catch {
+    return null;
+  }
+}
+
+/// Whether a parameter of the contact counts for no joint: all that have clearance give their own number.
+/** @param {string} path  @param {any[] | null} clearances */
+export function isIdle(path, clearances) {
+  return clearances !== null && isContact(path) && clearances.every((each) => path in Object(each));
 }
 
 /// Whether a text describes a linkage, be it faulty.
@@ -69,6 +86,7 @@ function addEntry(field, entry, request, refuse) {
     return;
   }
   const isAxis = entry.mode === "list" && field.kind !== "numbers";
+  const doubt = isAxis || field.kind === "numbers" ? "" : doubtOf(entry.text);
   const { values: typed, fault: unclear } = isAxis || field.kind === "numbers" || !isOneNumber(entry.text)
     ? readList(entry.text)
     : { values: [readNumber(entry.text)], fault: "" };
@@ -76,7 +94,7 @@ function addEntry(field, entry, request, refuse) {
   const fault = values.map((value) => faultOf(field, value)).find(Boolean);
   const empty = isAxis && values.length === 0
     ? "the list is empty: write values such as 0, 0.1, 0.2, or choose “one value”" : "";
-  if (unclear || empty) refuse(unclear || empty);
+  if (doubt || unclear || empty) refuse(doubt || unclear || empty);
   else if (fault) refuse(fault);
   else if (field.kind === "numbers" && values.length > 0) setAtPath(request.parameters, field.path, values);
   else if (isAxis) request.sweep[field.path] = values;
@@ -96,6 +114,11 @@ function addRange(field, entry, request, refuse) {
   const empty = ["from", "to"].filter((end) => entry[end].trim() === "");
   if (empty.length > 0) {
     refuse(`${empty.map((end) => `“${end}”`).join(" and ")} ${empty.length === 1 ? "is" : "are"} empty: write a number, or choose “one value”`);
+    return;
+  }
+  const doubt = doubtOf(entry.from) || doubtOf(entry.to);
+  if (doubt) {
+    refuse(doubt);
     return;
   }
   const [from, to] = [entry.from, entry.to].map((text) => inUnit(field, entry, readNumber(text)));

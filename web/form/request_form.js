@@ -8,7 +8,7 @@ import { fieldRow } from "/form/field.js";
 import { isOfRpsup, pathOfPointer, writtenAsJson } from "/form/fields.js";
 import { jsonText } from "/form/json_text.js";
 import { LinkageEditor } from "/form/linkage_editor.js";
-import { emptyEntry, isDescription } from "/form/request.js";
+import { clearancesIn, emptyEntry, isDescription, isIdle } from "/form/request.js";
 
 // Parameters that are shown at first; the others are one click away.
 const first = ["clearance_mm", "crank_velocity_rad_s", "coupler", "duration_s", "run_up_s", "restitution",
@@ -141,7 +141,8 @@ export class RequestForm {
     this.rows.set("linkage", this.editor);
     return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
       h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives. "
-        + "The parameters of RPSUP's coupler, crank, rod and guide do not apply to it and are hidden."),
+        + "The parameters of RPSUP's coupler, crank, rod and guide do not apply to it and are hidden, as are those of "
+        + "the contact where no joint with clearance takes them."),
       this.editor.element,
       ...this.json("inside", "Axes inside the linkage: JSON object of lists and ranges"));
   }
@@ -203,6 +204,10 @@ export class RequestForm {
     for (const row of this.rows.values()) row.complain("");
     for (const { path, detail } of problems) this.rows.get(path)?.complain(detail);
     this.form.classList.toggle("described", isDescription(this.state.linkage));
+    const clearances = clearancesIn(this.state.linkage);
+    for (const row of /** @type {NodeListOf<HTMLElement>} */ (this.form.querySelectorAll("[data-path]"))) {
+      row.toggleAttribute("data-idle", isIdle(row.dataset.path ?? "", clearances));
+    }
     this.editor?.update(request.parameters);
     this.drawCount(request);
     this.drawSend();

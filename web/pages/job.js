@@ -198,7 +198,7 @@ class JobPage {
    */
   card(title, channels, more = {}) {
     const shown = channels.map((channel) => withEnvelope(channel, this.columns));
-    return plotCard(title, { traces: [...tracesOf(this.jobs, shown), ...this.measuredOf(channels)],
+    return plotCard(title, { traces: [...tracesOf(this.jobs, shown, title), ...this.measuredOf(channels)],
       note: peakNote(this.jobs, channels, shown.some(({ envelope }) => !envelope)),
       times: this.times, height: 220, signal: this.signal, ...more });
   }

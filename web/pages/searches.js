@@ -4,7 +4,7 @@ import { searches } from "/core/api.js";
 import { exact, nameOf, titleOf, unitOf } from "/core/format.js";
 import { SearchForm } from "/form/search_form.js";
 import { showStudyForm } from "/form/study_form.js";
-import { LimitView } from "/study/limit_view.js";
+import { LimitView, shortAnswerOf } from "/study/limit_view.js";
 import { showStudies } from "/study/study_list.js";
 import { showStudy } from "/study/study_view.js";
 
@@ -30,7 +30,7 @@ const kind = {
   api: searches, route: "searches", title: "Limits",
   question: "Largest value of a parameter for which a metric stays within a bound.", listName: "Searches",
     nouns: ["search", "searches"],
-  aim: { heading: "Target", textOf: aimOf }, none: "No searches yet.", begin: "New search",
+  aim: { heading: "Target", textOf: aimOf }, answerOf: shortAnswerOf, none: "No searches yet.", begin: "New search",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

@@ -6,7 +6,7 @@ import { showStudyForm } from "/form/study_form.js";
 import { WearForm } from "/form/wear_form.js";
 import { showStudies } from "/study/study_list.js";
 import { showStudy } from "/study/study_view.js";
-import { WearView } from "/study/wear_view.js";
+import { WearView, shortAnswerOf } from "/study/wear_view.js";
 
 // The paper's rigid linkage until its bearing has got 10 um wider at the deepest place.
 const example = { name: "Bearing wear", parameters: { duration_s: 3 }, wear_coefficient_m2_n: 1e-15,
@@ -20,7 +20,8 @@ const kind = {
   api: wearStudies, route: "wear", title: "Wear",
   question: "Wear of the bearing's bore over time, cycle by cycle; each cycle simulates the worn bore.",
   listName: "Wear studies", nouns: ["wear study", "wear studies"],
-  aim: { heading: "End", textOf: untilOf }, none: "No wear studies yet.", begin: "New wear study",
+  aim: { heading: "End", textOf: untilOf }, answerOf: shortAnswerOf, none: "No wear studies yet.",
+    begin: "New wear study",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

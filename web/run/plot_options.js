@@ -20,7 +20,7 @@ export function plotOptions(uPlot, traces, times, width, height) {
   return {
     width, height,
     scales: { x: { time: false, range: () => [times.from, times.to] }, ...Object.fromEntries(ranges) },
-    series: [{ label: "t [s]", value: (_, value) => number(value, 6) }, ...traces.flatMap(seriesOf)],
+    series: [{ label: "t [s]", value: (_, value) => number(value, 6) }, ...traces.flatMap((trace) => seriesOf(trace, units.length === 1))],
     bands: bandsOf(traces),
     axes: [axis("x", "t [s]", 3), ...units.map((unit, index) => axis(unit, unit, index === 0 ? 3 : 1))],
     cursor: { sync: { key: "time" }, drag: { x: true, y: false, setScale: false }, bind: {
@@ -45,14 +45,17 @@ function zoomToSelection(plot, times) {
   times.set(from, to);
 }
 
-/** @param {Trace} trace */
-function seriesOf(trace) {
+/// The curve and the ends of its envelope, which the legend does not list.
+/** @param {Trace} trace  @param {boolean} isPlain  whether one unit, in the title, counts for all numbers */
+function seriesOf(trace, isPlain) {
   const unit = unitOf(trace.channel);
   const common = { scale: unit || "1", stroke: trace.colour(), points: { show: false },
-    value: (_, value) => (value === null || value === undefined ? "–" : `${number(value)} ${unit}`) };
+    value: (_, value) => (value === null || value === undefined ? "–"
+      : isPlain ? number(value) : `${number(value)} ${unit}`) };
   return columnsOf(trace).map((column) => (column === trace.channel
     ? { ...common, label: trace.name, width: 1.3, dash: trace.dash }
-    : { ...common, label: `${trace.name}, ${column === trace.envelope?.[0] ? "least" : "largest"}`, width: 0.7 }));
+    : { ...common, label: `${trace.name}, ${column === trace.envelope?.[0] ? "least" : "largest"}`, width: 0.7,
+      class: "twin" }));
 }
 
 /// The envelope is filled between its two columns.

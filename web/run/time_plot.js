@@ -49,8 +49,17 @@ export async function timePlot(element, { traces, times, height, label, signal }
     plot?.destroy();
     plot = new uPlot(plotOptions(uPlot, traces, times, element.clientWidth, height), data, place);
     plot.over.append(now);
+    tellLegend();
     watchPointer(plot, times);
     watchFingers(plot.over, times);
+  }
+
+  /// The keyboard reaches a legend that is wider than the plot, to move it along.
+  function tellLegend() {
+    const legend = element.querySelector(".u-legend");
+    if (!legend) return;
+    if (legend.scrollWidth > legend.clientWidth) legend.setAttribute("tabindex", "0");
+    else legend.removeAttribute("tabindex");
   }
 
   function showInstant() {
@@ -74,7 +83,7 @@ export async function timePlot(element, { traces, times, height, label, signal }
   times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
   times.addEventListener("instant", showInstant, { signal });
   onColours(() => data && make(), signal);
-  const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); });
+  const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); tellLegend(); });
   sizes.observe(element);
   // Plots out of sight are not drawn until they come into sight: a page has many, and all move at every frame.
   const sight = new IntersectionObserver((entries) =>

@@ -10,7 +10,7 @@ const font = "12px system-ui, sans-serif";
 const [barTop, barHeight] = [18, 10];
 
 /// Height of the bar with its title and numbers.
-export const colourBarHeight = 50;
+export const colourBarHeight = 58;
 
 /// Places of labels, left out where one would touch the last.
 function labelled(values, at) {
@@ -42,7 +42,7 @@ export function colourBar(axis, all, drawn, width, left) {
   const text = (words, x, y, align) => ({ type: "text", x, y,
     style: { text: words, fill: colour("text"), font, align, verticalAlign: "top" } });
   const ticks = [...new Set(drawn)].sort((a, b) => a - b);
-  return [{ type: "group", x: left, y: 2, silent: true, children: [
+  return [{ type: "group", x: left, y: 8, silent: true, children: [
     text(titleOf(axis), 0, 0, "left"),
     { type: "rect", shape: { x: 0, y: barTop, width: length, height: barHeight }, style: { fill } },
     ...ticks.map((value) => ({ type: "line", style: { stroke: colour("text") },

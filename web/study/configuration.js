@@ -3,13 +3,16 @@
 // was computed.
 import { findJob } from "/core/api.js";
 import { h } from "/core/dom.js";
-import { exact, moment, nameOf, plural, span, unitOf } from "/core/format.js";
+import { moment, nameOf, number, plural, span, unitOf } from "/core/format.js";
 
 const mostListed = 8;  // values of an axis
 
+/** @type {(value: number) => string} */
+const shown = (value) => number(value, 6);
+
 /** @type {(value: any, key: string) => string} */
 function valueText(value, key) {
-  if (typeof value === "number") return [exact(value), unitOf(key)].filter(Boolean).join(" ");
+  if (typeof value === "number") return [shown(value), unitOf(key)].filter(Boolean).join(" ");
   if (typeof value === "string") return value;
   if (key === "linkage") return value.name ?? `of ${plural(Object.keys(value.joints ?? {}).length, "joint")}`;
   if (typeof value.law === "string") return value.law.replaceAll("_", " ");
@@ -20,15 +23,15 @@ function valueText(value, key) {
 /** @type {(axis: any, key: string) => string} */
 function axisText(axis, key) {
   if (Array.isArray(axis)) {
-    const shown = axis.slice(0, mostListed)
-      .map((value) => (typeof value === "number" ? exact(value) : valueText(value, key)));
+    const listed = axis.slice(0, mostListed)
+      .map((value) => (typeof value === "number" ? shown(value) : valueText(value, key)));
     const more = axis.length > mostListed ? `, … (${axis.length} values)` : "";
     const unit = typeof axis[0] === "number" ? unitOf(key) : "";
-    return [`${shown.join(", ")}${more}`, unit].filter(Boolean).join(" ");
+    return [`${listed.join(", ")}${more}`, unit].filter(Boolean).join(" ");
   }
   const { from, to, count, scale } = axis;
   const how = scale === "log" ? " in equal ratios" : "";
-  return `${[`${exact(from)} to ${exact(to)}`, unitOf(key)].filter(Boolean).join(" ")}`
+  return `${[`${shown(from)} to ${shown(to)}`, unitOf(key)].filter(Boolean).join(" ")}`
     + `${count === undefined ? "" : `, ${count} values${how}`}`;
 }
 
@@ -42,8 +45,8 @@ function fixedParameters({ parameters = {} }, schema) {
 /** @param {any} replicates */
 function replicatesText({ count, perturbation, tolerance_factor: factor }) {
   return [`${count} of each set`,
-    perturbation === undefined ? "" : `contact stiffness within ± ${exact(100 * perturbation)} %`,
-    factor === undefined ? "" : `tolerances × ${exact(factor)}`].filter(Boolean).join(", ");
+    perturbation === undefined ? "" : `contact stiffness within ± ${shown(100 * perturbation)} %`,
+    factor === undefined ? "" : `tolerances × ${shown(factor)}`].filter(Boolean).join(", ");
 }
 
 /** @param {Api.Sweep} sweep */

@@ -16,7 +16,7 @@ export function curveChoice(sweep, changed) {
   const list = h("div", { class: "list" });
   const more = h("p", { class: "quiet small" });
   const evenly = h("button", { onclick: () => set(null) }, "Evenly spread");
-  const element = h("details", { class: "menu", ontoggle: () => element.open && drawList() }, summary,
+  const element = h("details", { class: "menu within", ontoggle: () => element.open && drawList() }, summary,
     h("div", { class: "card" }, h("p", { class: "actions" }, search, evenly), more, list));
 
   /** @param {string[] | null} keys */

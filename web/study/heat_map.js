@@ -9,7 +9,8 @@ import { extremesOf, widened } from "/study/span.js";
 
 const mostPanels = 12;
 const fewCells = 400;  // with lines between them
-const mostLabels = 12;
+const widthOfLetter = 7;
+const heightOfLabel = 20;
 // Pixels: of the least height of a panel, its title, and what stands below all panels.
 const [leastPanel, titleHeight, below] = [120, 24, 150];
 const usualHeight = 416;
@@ -94,11 +95,19 @@ const places = (values) => new Map(values.map((value, place) => [value, place]))
 
 const shortly = (value) => number(value, 4);
 
-/// Labels at so many of the values that they stand apart.
-function withRoom(values, most, show = true) {
+/// Labels at every k-th value, so many that they stand apart; at the last one, too, if a few fewer allow for that.
+/** @param {(string | number)[]} values  @param {number} room  for a label, in parts of the axis  @param {boolean} show */
+function withRoom(values, room, show) {
   const look = axisLook();
-  return { ...look, axisLabel: { ...look.axisLabel, show, interval: Math.ceil(values.length / most) - 1 } };
+  const steps = values.length - 1;
+  const least = Math.max(1, Math.ceil(values.length * room));
+  const even = Array.from({ length: least + 1 }, (_, more) => least + more).find((step) => steps % step === 0);
+  return { ...look, axisLabel: { ...look.axisLabel, show, hideOverlap: false, interval: (even ?? least) - 1 } };
 }
+
+/// Width of the widest label, in pixels: about.
+/** @param {(string | number)[]} values */
+const widthOfLabels = (values) => widthOfLetter * Math.max(...values.map((value) => shortly(value).length)) + 12;
 
 /// Grids, axes and titles of the panels. Only the outer ones have axes with numbers and names.
 function gridsOf(view, xs, ys, panels, { columns, lines, width, height }) {
@@ -116,10 +125,11 @@ function gridsOf(view, xs, ys, panels, { columns, lines, width, height }) {
     xAxis: panels.map((_, index) =>
       ({ gridIndex: index, type: "category", data: xs.map(shortly), name: isLowest(index) ? titleOf(view.x)
         : "", nameLocation: "middle",
-        nameGap: 28, ...withRoom(xs, mostLabels / columns, isLowest(index)) })),
+        nameGap: 28,
+        ...withRoom(xs, widthOfLabels(xs) / (((part - 3) / 100) * width), isLowest(index)) })),
     yAxis: panels.map((_, index) =>
       ({ gridIndex: index, type: "category", data: ys.map(shortly), name: index % columns === 0
         && view.y ? titleOf(view.y) : "", nameLocation: "middle", nameGap: 52,
-        ...withRoom(ys, lines > 1 ? mostLabels / 2 : mostLabels, index % columns === 0) })),
+        ...withRoom(ys, heightOfLabel / (step - titleHeight - 4), index % columns === 0) })),
   };
 }

@@ -9,6 +9,11 @@ import { lineColour } from "/core/theme.js";
 /** @param {Api.Search} search */
 export const hasReplicates = ({ request }) => Number(request.replicates?.count ?? 1) > 1;
 
+/// Stretches in which the metric falls. Single runs scatter too much to tell of one, except where the bound
+/// holds again.
+/** @param {Api.Search} search  @param {Api.Limit} limit */
+export const fallsShown = (search, { falls }) => falls.filter((fall) => hasReplicates(search) || fall.within_again);
+
 /**
  * @param {HTMLElement} element
  * @param {import("/study/limit_view.js").LimitView} view
@@ -83,5 +88,5 @@ function textOf(search, limit) {
     ? `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}`
       : "one run at each value";
   return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band,
-    limit.monotonic ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
+    limit.monotonic || !hasReplicates(search) ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
 }

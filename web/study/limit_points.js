@@ -4,6 +4,7 @@
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
+import { fallsShown, hasReplicates } from "/study/limit_curve.js";
 
 /**
  * @param {HTMLElement} element
@@ -20,8 +21,9 @@ function optionOf(search, limit) {
   const points = limit.points.filter((point) => point.quantile !== null);
   if (points.length === 0) return null;
   const { scale } = search.request.over[search.parameter];
-  const fallen = limit.falls.map(({ from, to }) =>
-    [{ xAxis: Math.min(from, to), itemStyle: { color: colour("bad"), opacity: 0.12 } }, { xAxis: Math.max(from, to) }]);
+  const fallen = fallsShown(search, limit).map(({ from, to }) =>
+    [{ xAxis: Math.min(from, to), itemStyle: hasReplicates(search) ? { color: colour("bad"), opacity: 0.12 }
+      : { color: colour("quiet"), opacity: 0.15 } }, { xAxis: Math.max(from, to) }]);
   return {
     grid: { left: 75, right: 30, top: 30, bottom: 50 },
     tooltip: { formatter: ({ dataIndex, seriesIndex }) => (seriesIndex < 2 ? textOf(search, points[dataIndex]) : "") },

@@ -4,7 +4,7 @@ import { searches } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { exact, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
-import { hasReplicates, limitCurve } from "/study/limit_curve.js";
+import { fallsShown, hasReplicates, limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
 
@@ -21,6 +21,21 @@ const verdictOf = ({ verdict, lost_reason: reason, points }) =>
 /// The combination of a limit: "10 rad/s, flexible".
 /** @type {(search: Api.Search, limit: Api.Limit) => string} */
 const combinationOf = (search, limit) => search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
+
+/// The limits in a line, for a list: "0.035 mm", "2 limits, 0.035 to 0.05 mm; 1 not exceeded".
+/** @param {Api.Search} search */
+export function shortAnswerOf({ limits, parameter }) {
+  const count = (verdict) => limits.filter((limit) => limit.verdict === verdict).length;
+  const found = limits.filter(({ verdict }) => verdict === "found").map(({ limit }) => Number(limit))
+    .sort((a, b) => a - b);
+  const [least, most] = [found[0], found.at(-1)].map((value) => number(value, 3));
+  const range = `${least === most ? least : `${least} to ${most}`} ${unitOf(parameter)}`.trim();
+  const others = [["never_exceeded", "not exceeded"], ["always_exceeded", "exceeded from the start"],
+    ["lost", "undetermined"]].filter(([verdict]) => count(verdict) > 0)
+    .map(([verdict, words]) => (limits.length > 1 ? `${count(verdict)} ${words}` : words));
+  return [found.length === 0 ? "" : limits.length === 1 ? range : `${plural(found.length, "limit")}, ${range}`, ...others]
+    .filter(Boolean).join("; ") || "–";
+}
 
 /** @extends {StudyView<Api.Search>} */
 export class LimitView extends StudyView {
@@ -50,7 +65,7 @@ export class LimitView extends StudyView {
     return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`],
       ...(hasReplicates(search) ? [[`OK in all up to ${unit}`, "number"],
         [`Exceeded in all from ${unit}`, "number"]] : []),
-      ["Evaluations", "number"], [`Metric falls in ${unit}`]];
+      ["Evaluations", "number"], [hasReplicates(search) ? `Metric falls in ${unit}` : `Bound holds again in ${unit}`]];
   }
 
   statusText() {
@@ -81,9 +96,9 @@ export class LimitView extends StudyView {
 
   /** @param {Api.Limit} limit */
   row(limit) {
-    const falls = limit.falls.map(
-      ({ from, to, within_again: again }) => `${number(from)} `
-        + `to ${number(to)}${again ? " (within the bound again)" : ""}`).join("; ");
+    const isSure = hasReplicates(this.study);
+    const falls = fallsShown(this.study, limit).map(({ from, to, within_again: again }) =>
+      `${number(from)} to ${number(to)}${isSure && again ? " (within the bound again)" : ""}`).join("; ");
     const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}`
       : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
     return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))),
@@ -91,6 +106,6 @@ export class LimitView extends StudyView {
       ...(hasReplicates(this.study) ? [limit.band_from, limit.band_to].map((end) => h("td",
         { class: "number" }, number(end))) : []),
       h("td", { class: "number" }, String(limit.evaluations)),
-      h("td", {}, falls || "–"));
+      h("td", { class: isSure ? null : "quiet" }, falls || "–"));
   }
 }

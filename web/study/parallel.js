@@ -68,6 +68,16 @@ export function parallelNote(sweep) {
       + `out.`].filter(Boolean).join(" ");
 }
 
+/** @type {(values: any[]) => number[]} */
+const numbersOf = (values) => values.filter((value) => typeof value === "number");
+/** @type {(values: any[]) => boolean} */
+const isConstant = (values) => numbersOf(values).length === 1;
+
+/// Labels away from the ends of the axis; of one value that one alone.
+/** @param {any[]} values */
+const labelsOfNumbers = (values) => (isConstant(values) ? { customValues: numbersOf(values) }
+  : { showMinLabel: false, showMaxLabel: false });
+
 /// An axis, with its name above or below it in turn. @param room  pixels from one axis to the next but one
 function dimensionOf({ name, values, isNumeric }, dim, room) {
   return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start",
@@ -75,9 +85,10 @@ function dimensionOf({ name, values, isNumeric }, dim, room) {
       overflow: "break" },
     axisLine: { lineStyle: { color: colour("quiet") } },
     // On ground of their own, for lines run below them.
-    axisLabel: { color: colour("text"), backgroundColor: colour("card"), padding: [1, 3], borderRadius: 2,
-      formatter: (value) => (isNumeric ? number(value) : exact(value)),
-      ...(isNumeric ? { showMinLabel: false, showMaxLabel: false } : {}) },
+    axisLabel: { color: colour("text"), backgroundColor: colour("card"), padding: isNumeric ? [1, 3] : [3, 5],
+      borderRadius: 2, formatter: (value) => (isNumeric ? number(value) : exact(value)),
+      ...(isNumeric ? labelsOfNumbers(values) : {}) },
+    axisTick: isNumeric && isConstant(values) ? { customValues: numbersOf(values).slice(0, 1) } : {},
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
 

@@ -2,7 +2,7 @@
 // Selects above the charts of a sweep: metric, axes, and another sweep beside it.
 import { listSweeps } from "/core/api.js";
 import { choice } from "/core/dom.js";
-import { titleOf } from "/core/format.js";
+import { moment, titleOf } from "/core/format.js";
 import { quantityChoice } from "/core/quantities.js";
 
 /** @param {SweepPage} page */
@@ -24,11 +24,15 @@ export function drawPickers(page) {
 /** @param {SweepPage} page */
 async function offerComparison(page) {
   const found = await listSweeps({ limit: 100 }, page.signal).catch(() => null);
-  const alike = (found?.items ?? []).filter(({ id, axes }) => id !== page.sweep.id
+  const alike = (found?.items ?? []).filter(({ id, axes, study_id: study }) => id !== page.sweep.id && !study
     && axes.includes(page.view.x));
+  // Equal names are told apart by their dates.
+  const namesakes = (name) => alike.filter((sweep) => sweep.name === name).length;
+  const titles = alike.map(({ id, name, created_at: created }) =>
+    [id, name && namesakes(name) > 1 ? `${name}, ${moment(created)}` : name || id]);
   if (alike.length === 0) return;
   page.compare.replaceChildren(
-    choice("Compare with", [["", "none"], ...alike.map(({ id, name }) => [id, name || id])], page.others?.id
+    choice("Compare with", [["", "none"], ...titles], page.others?.id
       ?? "",
       (id) => page.compareWith(id).then(() => page.changed())));
 }

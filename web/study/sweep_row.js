@@ -2,7 +2,7 @@
 // One sweep in the list: its row is made once and then kept up to date.
 import { findResults } from "/core/api.js";
 import { h, setSeen } from "/core/dom.js";
-import { moment, nameOf, number, span, unitOf } from "/core/format.js";
+import { moment, nameOf, number, shortMoment, span, unitOf } from "/core/format.js";
 import { isUnderWay } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 import { tagBadges } from "/study/sweep_labels.js";
@@ -75,7 +75,8 @@ export function sweepRow(act, box, signal) {
     bar.hidden = !isUnderWay(sweep);
     cells.jobs.textContent = jobStates.filter((each) => sweep.counts[each] > 0)
       .map((each) => `${sweep.counts[each].toLocaleString("en")} ${each}`).join(", ");
-    cells.created.textContent = moment(sweep.created_at);
+    cells.created.textContent = shortMoment(sweep.created_at);
+    cells.created.title = moment(sweep.created_at);
     setSeen(buttons.cancel, isUnderWay(sweep));
     setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
     setSeen(buttons.delete, !isUnderWay(sweep) && !sweep.study_id);

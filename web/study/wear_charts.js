@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bore of a wear study around the bearing, a curve for some of its cycles; and its largest depth over the hours.
+import { depthAxis } from "/analysis/polar.js";
 import { axisLook, makeChart } from "/core/charts.js";
 import { number } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
@@ -12,7 +13,7 @@ const mostCurves = 8;
  * @param {AbortSignal} signal
  */
 export function wearMap(element, view, signal) {
-  return makeChart(element, () => mapOption(view.study.cycles, view.ring),
+  return makeChart(element, () => mapOption(view.study.cycles, view.ring, element.clientWidth),
     "Worn depth around the bearing after some of the cycles", signal);
 }
 
@@ -36,23 +37,21 @@ function chosen(cycles) {
 
 /// 0 degrees, the bearing's x, points right, and angles go against the clock; the circle in the middle is the bore
 /// as it was new.
-/** @param {Api.WearStudy["cycles"]} cycles  @param {number} ring */
-function mapOption(cycles, ring) {
+/** @param {Api.WearStudy["cycles"]} cycles  @param {number} ring  @param {number} width */
+function mapOption(cycles, ring, width) {
   if (cycles.length < 2) return null;
   const text = { color: colour("text") };
   const curve = (depths) => [...depths, depths[0]].map((depth, s) => [depth, (360 * (s + 0.5)) / depths.length]);
+  const drawn = chosen(cycles);
   return {
+    ...depthAxis(Math.max(...drawn.flatMap((cycle) => cycle.wear_depth_um[ring])), width),
     legend: { top: 0, type: "scroll" }, polar: { radius: ["25%", "78%"] },
     tooltip: { formatter: (
       { seriesName, value }) => `${seriesName}\n${number(value[1] % 360, 3)}°: ${number(value[0])} µm` },
     angleAxis: { type: "value", min: 0, max: 360, interval: 30, startAngle: 0, clockwise: false,
       axisLabel: { ...text, formatter: (angle) => (angle === 360 ? "" : `${angle}°`) },
       axisLine: { lineStyle: { color: colour("quiet") } } },
-    radiusAxis: { min: 0, splitNumber: 3, name: "depth [µm]", nameLocation: "middle", nameGap: 24,
-      nameTextStyle: text,
-      axisLabel: { ...text, hideOverlap: true, formatter: (value) => number(value, 2) },
-      splitLine: { lineStyle: { color: colour("line") } } },
-    series: chosen(cycles)
+    series: drawn
       .map((cycle, index) =>
         ({ type: "line", coordinateSystem: "polar", name: `${number(cycle.hours, 3)} h`, color: lineColour(index),
           symbolSize: 3, data: curve(cycle.wear_depth_um[ring]) })),

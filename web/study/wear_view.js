@@ -11,6 +11,15 @@ const verdicts = { open: "open", hours_reached: "end time reached", clearance_re
   no_wear: "no wear", cycle_limit: "cycle limit reached",
   lost: "undetermined: a job failed" };
 
+/// How far a study has come and why it has stopped, for a list.
+/** @param {Api.WearStudy} study */
+export function shortAnswerOf({ cycles, verdict, state, error }) {
+  const last = cycles.at(-1);
+  const reached = last ? `${number(last.hours)} h in ${plural(cycles.length, "cycle")}` : "";
+  const why = verdict === "open" ? error ?? state : verdicts[verdict];
+  return [reached, why].filter(Boolean).join(": ");
+}
+
 /** @extends {StudyView<Api.WearStudy>} */
 export class WearView extends StudyView {
   static api = wearStudies;
