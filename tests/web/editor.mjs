@@ -77,7 +77,10 @@ test("a linkage typed into an empty form is drawn, and what RPSUP alone has is n
   await page.locator(".preview[data-bodies='1'] canvas").waitFor();
   await page.getByText("Assembled at t = 0. Degrees of freedom without a drive, those of play and bending among them: 1.").waitFor();
   assert.deepEqual(Object.keys((await shown(page)).parameters), ["linkage"]);
+  // Without a joint with clearance there is no contact.
+  assert.ok(await page.locator('[data-path="restitution"]').isHidden());
   await text(page).fill("");
+  assert.ok(await page.locator('[data-path="restitution"]').isVisible());
   assert.deepEqual((await shown(page)).parameters, { crank_velocity_rad_s: 12 });
   assert.ok(await page.locator(".preview").isHidden());
   await leave(page);

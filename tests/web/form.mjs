@@ -42,6 +42,9 @@ test("a decimal comma is understood, or named where it may be another comma", as
   const page = await visit("#/new");
   await page.getByLabel("Clearance", { exact: true }).fill("0,25");
   assert.deepEqual((await shown(page)).parameters, { clearance_mm: 0.25 });
+  await page.getByLabel("Clearance", { exact: true }).fill("1,200");
+  await row(page, "clearance_mm").getByText("“1,200” may be 1.2 or 1200: write one of these").waitFor();
+  await page.getByLabel("Clearance", { exact: true }).fill("0,25");
   await page.getByLabel("Clearance: kind of value", { exact: true }).selectOption("list");
   await row(page, "clearance_mm").getByText("“0,25” may be one number or two: write 0.25, or 0; 25").waitFor();
   for (const [text, values] of [["0,25; 0,5", [0.25, 0.5]], ["0, 0.25", [0, 0.25]], ["0.1,0.2", [0.1, 0.2]], ["0,1,2", [0, 1, 2]], ["0.1 0.2", [0.1, 0.2]], ["0.1;0.2;", [0.1, 0.2]]]) {

@@ -80,6 +80,7 @@ test("studies are sorted and deleted together", async () => {
   await page.locator("tbody tr").filter({ hasText: "succeeded" }).nth(1).waitFor();
   const names = () => page.locator("tbody .name").allTextContents();
   assert.deepEqual(await names(), ["first", "second"]);
+  await page.getByRole("cell", { name: "not exceeded", exact: true }).nth(1).waitFor();
   await page.getByRole("combobox", { name: "Sort by" }).selectOption("-name");
   assert.deepEqual(await names(), ["second", "first"]);
   await page.getByRole("checkbox", { name: "Select all searches" }).check();

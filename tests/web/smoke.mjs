@@ -234,7 +234,7 @@ test("another linkage is taken, swept over a number inside it, and seen in motio
   assert.deepEqual(rows.map((row) => row["linkage.joints.crank_pin.clearance.clearance_mm"]), [0.05, 0.1]);
   assert.ok(rows.every((row) => row.peak_crank_pin_contact_force_n > 0 && row.peak_slider_pin_contact_force_n > 0));
   await page.goto(`${url}/#/jobs/${rows[0].job_id}`);
-  await page.getByRole("heading", { name: "planar slider-crank with clearance at both ends of the rod" }).waitFor();
+  await page.getByRole("heading", { name: "planar slider-crank with clearance at both ends of the rod, crank pin clearance 0.05 mm" }).waitFor();
   await page.locator("canvas.orbit[data-samples]").nth(1).waitFor();
   await page.locator("canvas.scene[data-instant='0']").waitFor();
   await page.locator(".uplot").nth(4).waitFor();
@@ -485,7 +485,7 @@ test("a sweep is held against the paper's statements", async () => {
   const numbered = rows.filter((row) => row.number !== null);
   assert.deepEqual(numbered.map((row) => [row.number, row.settings]), [1, 2, 3, 4, 5, 6, 7].map((number) => [number, 1]));
   const page = await visit(`#/sweeps/${sweep.id}`);
-  await page.getByText(`The paper's statements: ${numbered.filter((row) => row.holds).length} of 7 hold`).waitFor();
+  await page.getByText(`The paper's statements: ${numbered.filter((row) => row.holds).length} of 7 hold; one run each`).waitFor();
   await page.getByRole("link", { name: "The paper's statements" }).click();
   await page.getByRole("heading", { name: "The paper's statements" }).waitFor();
   assert.equal(await page.locator("section.card h2").first().textContent(), "The paper's statements");

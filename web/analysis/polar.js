@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axis of the depth in charts around the bearing: few numbers, apart from each other and readable over what is drawn.
+// Axis of the depth in charts around the bearing: few numbers, apart from each other and readable
+// over what is drawn.
 import { number } from "/core/format.js";
 import { colour } from "/core/theme.js";
 
@@ -17,12 +18,13 @@ function roundStep(least) {
 /** @param {number} largest  @param {number} width  of the chart */
 export function depthAxis(largest, width) {
   const step = roundStep((largest > 0 ? largest : 1) / (width < narrow ? 2 : 3));
+  const steps = Math.max(1, Math.ceil(largest / step - 1e-9));
   return {
     title: { text: "depth [µm]", left: 0, bottom: 0,
       textStyle: { fontSize: 12, fontWeight: "normal", color: colour("text") } },
-    radiusAxis: { type: "value", min: 0, max: step * (Math.max(1, Math.ceil(largest / step - 1e-9)) + beyond), interval: step, z: 5,
-      axisLabel: { showMaxLabel: false, color: colour("text"), fontSize: 11, backgroundColor: colour("card"), padding: [1, 2],
-        borderRadius: 2, formatter: (value) => number(value, 2) },
+    radiusAxis: { type: "value", min: 0, max: step * (steps + beyond), interval: step, z: 5,
+      axisLabel: { showMaxLabel: false, color: colour("text"), fontSize: 11, backgroundColor: colour("card"),
+        padding: [1, 2], borderRadius: 2, formatter: (value) => number(value, 2) },
       splitLine: { lineStyle: { color: colour("line") } } },
   };
 }

@@ -55,7 +55,8 @@ async function fill(body, job, signal) {
   h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
     field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
   await load();
-  chart = await makeChart(drawing, () => optionOf(rows, drawing.clientWidth), "Worn depth around the bearing", signal);
+  chart = await makeChart(drawing, () => optionOf(rows, drawing.clientWidth), "Worn depth around the bearing",
+    signal);
 }
 
 /// The bore is the circle in the middle; 0 degrees, the bearing's x, points right, and angles go against the clock.
@@ -70,8 +71,9 @@ function optionOf(rows, width) {
     legend: { top: 0 }, polar: { radius: ["25%", "80%"] },
     tooltip: { formatter: ({ seriesName, name, value }) => `${seriesName}\n${name}°: ${number(value)} µm` },
     angleAxis: { type: "category", data: sectors, startAngle: 0, clockwise: false,
-      axisLabel: { ...text, formatter: (angle) => `${angle}°`, interval: Math.max(0, Math.round(sectors.length / 12) - 1), hideOverlap: true },
-        axisLine: { lineStyle: { color: colour("quiet") } } },
+      axisLabel: { ...text, formatter: (angle) => `${angle}°`,
+        interval: Math.max(0, Math.round(sectors.length / 12) - 1), hideOverlap: true },
+      axisLine: { lineStyle: { color: colour("quiet") } } },
     series: rings.map((ring, index) =>
       ({ type: "bar", coordinateSystem: "polar",
         name: `ring at ${number(rows.find((row) => row.ring === ring)?.position_mm)} mm`, color: lineColour(index),

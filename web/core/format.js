@@ -41,13 +41,14 @@ export function unitOf(column) {
 
 const insideLinkage = /^linkage\.((bodies|joints|springs|loads|accelerometers)\.)?/;
 
-/// "peak_slider_acceleration_m_s2" as "Peak slider acceleration", "linkage.joints.crank.drive.velocity_rad_s" as
-/// "Crank drive velocity".
+/// "peak_slider_acceleration_m_s2" as "Peak slider acceleration",
+/// "linkage.joints.crank.drive.velocity_rad_s" as "Crank drive velocity".
 /** @param {string} column */
 export function nameOf(column) {
   const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
   const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ")
-    .replace(insideLinkage, "").replaceAll(/[_.]/g, " ").trim();
+    // "clearance.clearance_mm" is one word, too.
+    .replace(insideLinkage, "").replaceAll(/[_.]/g, " ").replace(/\b([a-z]+) \1$/, "$1").trim();
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
@@ -113,8 +114,8 @@ export function moment(text) {
 /// A moment in few letters: "27 Nov 2026, 22:21".
 /** @param {string | null} text */
 export function shortMoment(text) {
-  return text ? new Date(text).toLocaleString(undefined,
-    { day: "numeric", month: "short", year: "numeric", hour: "2-digit", minute: "2-digit", hourCycle: "h23" }) : "–";
+  return text ? new Date(text).toLocaleString(undefined, { day: "numeric", month: "short", year: "numeric",
+    hour: "2-digit", minute: "2-digit", hourCycle: "h23" }) : "–";
 }
 
 /** @param {number} count  @param {string} word */

@@ -86,7 +86,10 @@ export class Marked {
   /// @param remove  deletes one
   /// @param done    is called after that
   /// @param also    what else goes, as a sentence after a space
-  /** @param {{ nouns: string[], mayGo: (item: Item) => boolean, remove: (id: string) => Promise<unknown>, done: () => unknown, also?: string }} how */
+  /**
+   * @param {{ nouns: string[], mayGo: (item: Item) => boolean, remove: (id: string) => Promise<unknown>,
+   *   done: () => unknown, also?: string }} how
+   */
   constructor({ nouns, mayGo, remove, done, also = " Results that no others share are deleted, too." }) {
     this.also = also;
     this.nouns = nouns;

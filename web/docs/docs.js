@@ -53,7 +53,8 @@ function mend() {
       const live = table.matches(".live-responses-table") ? ", live" : "";
       give(table, "aria-label", `Responses of ${method} ${said}${live}`);
     }
-    const fields = /** @type {NodeListOf<HTMLInputElement>} */ (operation.querySelectorAll("select, textarea, input"));
+    const fields = /** @type {NodeListOf<HTMLInputElement>} */ (
+      operation.querySelectorAll("select, textarea, input"));
     for (const field of fields) {
       if (!field.labels?.length && !field.ariaLabel) give(field, "aria-label", nameOfField(field));
     }

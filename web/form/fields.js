@@ -11,8 +11,8 @@ const ofRpsup =
 /** @type {(path: string) => boolean} */
 export const isOfRpsup = (path) => ofRpsup.test(path);
 
-const ofContact = new RegExp("^((axial|radial|bearing|bristle|contact|friction|stribeck)(_|$)|break_away_ratio$|"
-  + "clearance_mm$|minimum_impact_velocity_m_s$|normal_law$|restitution$|stiffness_law$)");
+const ofContact = new RegExp("^((axial|radial|bearing|bristle|contact|friction|stribeck)(_|$)"
+  + "|break_away_ratio$|clearance_mm$|minimum_impact_velocity_m_s$|normal_law$|restitution$|stiffness_law$)");
 
 /// Whether a parameter is of the contact in joints with clearance.
 /** @type {(path: string) => boolean} */

@@ -18,7 +18,8 @@ export function buildRequest(fields, state) {
   const clearances = clearancesIn(state.linkage);
   for (const field of fields) {
     const entry = state.entries[field.path];
-    const applies = !isDescription(state.linkage) || !(isOfRpsup(field.path) || isIdle(field.path, clearances));
+    const applies = !isDescription(state.linkage)
+      || !(isOfRpsup(field.path) || isIdle(field.path, clearances));
     const refuse = (detail) => problems.push({ path: field.path, detail });
     if (entry && applies) addEntry(field, entry, request, refuse);
   }
@@ -43,7 +44,8 @@ export function buildRequest(fields, state) {
 /** @param {string} text  @returns {any[] | null} */
 export function clearancesIn(text) {
   try {
-    return Object.values(JSON.parse(text).joints).map((joint) => joint.clearance).filter((each) => each !== undefined);
+    return Object.values(JSON.parse(text).joints).map((joint) => joint.clearance)
+      .filter((each) => each !== undefined);
   } catch {
     return null;
   }

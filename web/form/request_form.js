@@ -141,8 +141,8 @@ export class RequestForm {
     this.rows.set("linkage", this.editor);
     return h("details", { open: this.state.linkage + this.state.inside !== "" }, h("summary", {}, "Custom linkage"),
       h("p", { class: "quiet small" }, "A custom linkage has its own bodies, joints and drives. "
-        + "The parameters of RPSUP's coupler, crank, rod and guide do not apply to it and are hidden, as are those of "
-        + "the contact where no joint with clearance takes them."),
+        + "The parameters of RPSUP's coupler, crank, rod and guide do not apply to it and are hidden, as are "
+        + "those of the contact where no joint with clearance takes them."),
       this.editor.element,
       ...this.json("inside", "Axes inside the linkage: JSON object of lists and ranges"));
   }

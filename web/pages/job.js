@@ -6,7 +6,8 @@ import { nameOfChannel, number, titleOfChannel } from "/core/format.js";
 import { pause, persist, seldom } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
-import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, settingOf, titleOfLinkage } from "/run/described.js";
+import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, settingOf,
+  titleOfLinkage } from "/run/described.js";
 import { withEnvelope } from "/run/envelopes.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
@@ -40,7 +41,8 @@ export async function show(main, { id, query, signal }) {
     await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
   document.title = `RPSUP: job ${id.slice(-5)}`;
   // What a sweep varies tells jobs of a described linkage apart; a sweep that is gone tells nothing.
-  const sweep = isDescribed(job) && job.sweep_id ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
+  const sweep = isDescribed(job) && job.sweep_id
+    ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
   const page = new JobPage([job, ...more], schema, query, signal, sweep?.axes ?? []);
   if (job.state !== "succeeded") {
     await page.waitForEnd(main);
@@ -175,7 +177,8 @@ class JobPage {
         && !this.added.includes(channel))));
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
-    const add = choice("Add channel", [["", "choose …"], ...columns.map((name) => [name, titleOfChannel(name)])], "",
+    const offered = columns.map((name) => [name, titleOfChannel(name)]);
+    const add = choice("Add channel", [["", "choose …"], ...offered], "",
       (channel) => this.add(channel, add));
     const plots = [this.main,
       joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
@@ -214,7 +217,7 @@ class JobPage {
     this.mainLife?.abort();
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
-    this.main.replaceChildren(plotCard(isDescribed(this.job) ? nameOfChannel(acceleration.channel) : "Slider acceleration",
+    this.main.replaceChildren(plotCard(nameOfChannel(acceleration.channel),
       { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
         ...this.measuredOf([acceleration.channel])],
         note: peakNote(this.jobs, [acceleration.channel], !acceleration.envelope),

@@ -42,11 +42,12 @@ async function showList(main, query, signal) {
   /** @type {ListOrder<Listing>} */
   const order = new ListOrder(orders, query.get("sort"), (sort) => { rememberQuery({ sort }); draw(); });
   /** @type {Marked<Listing>} */
-  const marked = new Marked({ nouns: ["measurement", "measurements"], mayGo: () => true, remove: deleteMeasurement,
-    also: "", done: () => refresh() });
+  const marked = new Marked({ nouns: ["measurement", "measurements"], mayGo: () => true,
+    remove: deleteMeasurement, also: "", done: () => refresh() });
   const table = h("div", { class: "scroll card", tabindex: 0, role: "region", "aria-label": "Measurements" },
     h("table", { class: "list" }, h("thead", {}, h("tr", {}, headings.map(([key, text, look]) =>
-      h("th", { scope: "col", class: look }, key === "box" ? marked.all : order.heading(key, text))))), body));
+      h("th", { scope: "col", class: look }, key === "box" ? marked.all : order.heading(key, text))))),
+    body));
   order.draw();
   const draw = () => {
     const shown = order.ordered(items);
@@ -81,7 +82,8 @@ async function showList(main, query, signal) {
 function row({ id, name: given, channels, samples, duration_s: duration, created_at: created }, box,
   trouble, refresh) {
   const name = given || id;
-  return h("tr", {}, h("td", { class: "box" }, box), h("td", { class: "name" }, h("a", { href: routeTo("measurements", id) }, name)),
+  return h("tr", {}, h("td", { class: "box" }, box), h("td", { class: "name" },
+    h("a", { href: routeTo("measurements", id) }, name)),
     h("td", {}, channels.length > 4 ? plural(channels.length, "channel")
       : channels.map((channel) => titleOf(channel.name)).join(", ")),
     h("td", { class: "number" }, samples.toLocaleString("en")),

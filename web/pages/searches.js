@@ -30,7 +30,8 @@ const kind = {
   api: searches, route: "searches", title: "Limits",
   question: "Largest value of a parameter for which a metric stays within a bound.", listName: "Searches",
     nouns: ["search", "searches"],
-  aim: { heading: "Target", textOf: aimOf }, answerOf: shortAnswerOf, none: "No searches yet.", begin: "New search",
+  aim: { heading: "Target", textOf: aimOf }, answerOf: shortAnswerOf, none: "No searches yet.",
+    begin: "New search",
 };
 
 /** @param {HTMLElement} main  @param {Visit} view */

@@ -109,8 +109,9 @@ export class SweepPage {
     this.drawLinks();
     drawPickers(this);
     return [
-      h("div", { class: "head" }, h("div", {}, this.title, this.status, this.tags, this.notes, this.paper),
-        this.buttons), this.configuration.element, this.headlines, this.pickers, this.chosen,
+      h("div", { class: "head below" },
+        h("div", {}, this.title, this.status, this.tags, this.notes, this.paper), this.buttons),
+      this.configuration.element, this.headlines, this.pickers, this.chosen,
       h("div", { class: "columns even" }, this.card("Heat map", this.heat, 0),
         this.card("Lines", this.lines, 1, { tools: [this.logs.element, this.curves.element] })),
       this.card("Parallel coordinates", this.parallel, 2, { help: this.help }),

@@ -21,7 +21,11 @@ export function leavesOf(value, path) {
 }
 
 /// What a sweep varies inside the linkage, with the values of a job.
-/** @param {Pick<Api.Job, "parameters">} job  @param {string[]} axes  @returns {[string, number | string][]} */
+/**
+ * @param {Pick<Api.Job, "parameters">} job
+ * @param {string[]} axes
+ * @returns {[string, number | string][]}
+ */
 export function variedInside({ parameters: { linkage } }, axes) {
   const leaves = leavesOf(linkage, "linkage");
   return axes.filter((axis) => axis in leaves).map((axis) => [axis, leaves[axis]]);

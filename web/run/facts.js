@@ -62,7 +62,8 @@ export function runCard(job, schema, axes) {
     h("td", {}, schema.properties[name]?.["x-unit"] ?? (name.includes(".") ? unitOf(name) : "")));
   const facts = job.run ? provenanceOf(job.run) : "not completed";
   return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
-    h("table", {}, h("tbody", {}, [...variedInside(job, axes), ...set.filter(([name]) => !defaults(name))].map(row))),
+    h("table", {}, h("tbody", {},
+      [...variedInside(job, axes), ...set.filter(([name]) => !defaults(name))].map(row))),
     h("details", {}, h("summary", {}, "Parameters at their defaults"),
       h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
 }

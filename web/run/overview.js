@@ -18,7 +18,8 @@ const height = 64;
 export function overview(job, envelope, times, signal) {
   const element = h("div",
     { class: "overview", role: "img",
-      "aria-label": `${nameOfChannel(envelope[0].replace("_min_", "_"))} of the whole run, with the stretch that the plots `
+      "aria-label": `${nameOfChannel(envelope[0].replace("_min_", "_"))} of the whole run, `
+        + "with the stretch that the plots "
         + `show. The sliders below set it too.` });
   make(element, job, envelope, times, signal)
     .catch((error) => { if (error.name !== "AbortError") element.textContent = error.message; });

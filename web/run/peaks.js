@@ -49,8 +49,8 @@ function steadyText(metrics, key) {
 /** @param {Api.Job[]} jobs  @param {string[]} channels  @param {boolean} hasLines */
 export function peakNote(jobs, channels, hasLines = true) {
   const labels = labelsOf(jobs);
-  const nameFor = (channel, j) => [channels.length > 1 && nameOfChannel(channel), jobs.length > 1 && labels[j]].filter(Boolean)
-    .join(", ");
+  const nameFor = (channel, j) => [channels.length > 1 && nameOfChannel(channel),
+    jobs.length > 1 && labels[j]].filter(Boolean).join(", ");
   const peaks = jobs.flatMap((job, j) => channels.map((channel) => [nameFor(channel, j), peakOf(job, channel)]))
     .filter(([, peak]) => peak !== null);
   if (peaks.length === 0) return "";

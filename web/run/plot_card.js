@@ -55,8 +55,9 @@ function shortened(names, title) {
 export function tracesOf(jobs, channels, title = "") {
   const several = jobs.length > 1;
   const labels = labelsOf(jobs);
-  const full = channels.map((each) => nameOfChannel(typeof each === "string" ? each : each.channel));
-  const isPlain = new Set(channels.map((each) => unitOf(typeof each === "string" ? each : each.channel))).size === 1;
+  const paths = channels.map((each) => (typeof each === "string" ? each : each.channel));
+  const full = paths.map(nameOfChannel);
+  const isPlain = new Set(paths.map((path) => unitOf(path))).size === 1;
   const names = isPlain && channels.length > 1 ? shortened(full, title) : full;
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;

@@ -20,7 +20,8 @@ export function plotOptions(uPlot, traces, times, width, height) {
   return {
     width, height,
     scales: { x: { time: false, range: () => [times.from, times.to] }, ...Object.fromEntries(ranges) },
-    series: [{ label: "t [s]", value: (_, value) => number(value, 6) }, ...traces.flatMap((trace) => seriesOf(trace, units.length === 1))],
+    series: [{ label: "t [s]", value: (_, value) => number(value, 6) },
+      ...traces.flatMap((trace) => seriesOf(trace, units.length === 1))],
     bands: bandsOf(traces),
     axes: [axis("x", "t [s]", 3), ...units.map((unit, index) => axis(unit, unit, index === 0 ? 3 : 1))],
     cursor: { sync: { key: "time" }, drag: { x: true, y: false, setScale: false }, bind: {
@@ -54,8 +55,8 @@ function seriesOf(trace, isPlain) {
       : isPlain ? number(value) : `${number(value)} ${unit}`) };
   return columnsOf(trace).map((column) => (column === trace.channel
     ? { ...common, label: trace.name, width: 1.3, dash: trace.dash }
-    : { ...common, label: `${trace.name}, ${column === trace.envelope?.[0] ? "least" : "largest"}`, width: 0.7,
-      class: "twin" }));
+    : { ...common, label: `${trace.name}, ${column === trace.envelope?.[0] ? "least" : "largest"}`,
+      width: 0.7, class: "twin" }));
 }
 
 /// The envelope is filled between its two columns.

@@ -83,7 +83,10 @@ export async function timePlot(element, { traces, times, height, label, signal }
   times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });
   times.addEventListener("instant", showInstant, { signal });
   onColours(() => data && make(), signal);
-  const sizes = new ResizeObserver(() => { plot?.setSize({ width: element.clientWidth, height }); tellLegend(); });
+  const sizes = new ResizeObserver(() => {
+    plot?.setSize({ width: element.clientWidth, height });
+    tellLegend();
+  });
   sizes.observe(element);
   // Plots out of sight are not drawn until they come into sight: a page has many, and all move at every frame.
   const sight = new IntersectionObserver((entries) =>

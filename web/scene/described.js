@@ -21,7 +21,8 @@ export function bodyColours(linkage) {
     ...others("springs", linkage.springs, springColour), ...others("loads", linkage.loads, loadColour)];
 }
 
-/// Colours by the order of the names: the service hands out the bodies in another order than they were written in.
+/// Colours by the order of the names: the service hands out the bodies in another order than they were
+/// written in.
 /** @param {Api.DescribedLinkage} linkage  @returns {Record<string, string>} */
 function coloursOf(linkage) {
   return Object.fromEntries(Object.keys(withCrosses(linkage).bodies).sort()

@@ -95,19 +95,22 @@ const places = (values) => new Map(values.map((value, place) => [value, place]))
 
 const shortly = (value) => number(value, 4);
 
-/// Labels at every k-th value, so many that they stand apart; at the last one, too, if a few fewer allow for that.
-/** @param {(string | number)[]} values  @param {number} room  for a label, in parts of the axis  @param {boolean} show */
+/// Labels at every k-th value, so many that they stand apart; at the last one, too, if a few fewer
+/// allow for that. @param room  for a label, in parts of the axis
+/** @param {(string | number)[]} values  @param {number} room  @param {boolean} show */
 function withRoom(values, room, show) {
   const look = axisLook();
   const steps = values.length - 1;
   const least = Math.max(1, Math.ceil(values.length * room));
-  const even = Array.from({ length: least + 1 }, (_, more) => least + more).find((step) => steps % step === 0);
-  return { ...look, axisLabel: { ...look.axisLabel, show, hideOverlap: false, interval: (even ?? least) - 1 } };
+  const even = Array.from({ length: least + 1 }, (_, more) => least + more)
+    .find((step) => steps % step === 0) ?? least;
+  return { ...look, axisLabel: { ...look.axisLabel, show, hideOverlap: false, interval: even - 1 } };
 }
 
 /// Width of the widest label, in pixels: about.
 /** @param {(string | number)[]} values */
-const widthOfLabels = (values) => widthOfLetter * Math.max(...values.map((value) => shortly(value).length)) + 12;
+const widthOfLabels = (values) =>
+  widthOfLetter * Math.max(...values.map((value) => shortly(value).length)) + 12;
 
 /// Grids, axes and titles of the panels. Only the outer ones have axes with numbers and names.
 function gridsOf(view, xs, ys, panels, { columns, lines, width, height }) {

@@ -12,7 +12,8 @@ export const hasReplicates = ({ request }) => Number(request.replicates?.count ?
 /// Stretches in which the metric falls. Single runs scatter too much to tell of one, except where the bound
 /// holds again.
 /** @param {Api.Search} search  @param {Api.Limit} limit */
-export const fallsShown = (search, { falls }) => falls.filter((fall) => hasReplicates(search) || fall.within_again);
+export const fallsShown = (search, { falls }) =>
+  falls.filter((fall) => hasReplicates(search) || fall.within_again);
 
 /**
  * @param {HTMLElement} element
@@ -88,5 +89,6 @@ function textOf(search, limit) {
     ? `OK in all replicates up to ${number(limit.band_from)}, exceeded in all from ${number(limit.band_to)}`
       : "one run at each value";
   return [where, `${nameOf(search.parameter)} ${number(limit.limit)}, ${beyond}`, band,
-    limit.monotonic || !hasReplicates(search) ? "" : "the metric is not monotonic"].filter(Boolean).join("\n");
+    limit.monotonic || !hasReplicates(search) ? "" : "the metric is not monotonic"].filter(Boolean)
+    .join("\n");
 }

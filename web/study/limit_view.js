@@ -32,8 +32,9 @@ export function shortAnswerOf({ limits, parameter }) {
   const range = `${least === most ? least : `${least} to ${most}`} ${unitOf(parameter)}`.trim();
   const others = [["never_exceeded", "not exceeded"], ["always_exceeded", "exceeded from the start"],
     ["lost", "undetermined"]].filter(([verdict]) => count(verdict) > 0)
-    .map(([verdict, words]) => (limits.length > 1 ? `${count(verdict)} ${words}` : words));
-  return [found.length === 0 ? "" : limits.length === 1 ? range : `${plural(found.length, "limit")}, ${range}`, ...others]
+    .map(([verdict, words]) => (count(verdict) < limits.length ? `${count(verdict)} ${words}` : words));
+  const all = limits.length === 1 ? range : `${plural(found.length, "limit")}, ${range}`;
+  return [found.length === 0 ? "" : all, ...others]
     .filter(Boolean).join("; ") || "–";
 }
 
@@ -65,7 +66,7 @@ export class LimitView extends StudyView {
     return [...search.axes.map((axis) => [titleOf(axis)]), ["Verdict"], [`Limit ${unit}`],
       ...(hasReplicates(search) ? [[`OK in all up to ${unit}`, "number"],
         [`Exceeded in all from ${unit}`, "number"]] : []),
-      ["Evaluations", "number"], [hasReplicates(search) ? `Metric falls in ${unit}` : `Bound holds again in ${unit}`]];
+      ["Evaluations", "number"], ...(hasReplicates(search) ? [[`Metric falls in ${unit}`]] : [])];
   }
 
   statusText() {
@@ -102,10 +103,12 @@ export class LimitView extends StudyView {
     const between = limit.verdict === "found" ? `${number(limit.limit)} to ${number(limit.limit_beyond)}`
       : limit.verdict === "never_exceeded" ? `beyond ${number(limit.limit)}` : "–";
     return h("tr", {}, this.study.axes.map((axis) => h("td", {}, pointOf(axis, limit[axis]))),
-      h("td", {}, verdictOf(limit), this.moreValues(limit)), h("td", {}, between),
+      h("td", {}, verdictOf(limit), this.moreValues(limit),
+        !isSure && falls ? h("span", { class: "quiet" }, `; within the bound again in ${falls}`) : null),
+      h("td", {}, between),
       ...(hasReplicates(this.study) ? [limit.band_from, limit.band_to].map((end) => h("td",
         { class: "number" }, number(end))) : []),
       h("td", { class: "number" }, String(limit.evaluations)),
-      h("td", { class: isSure ? null : "quiet" }, falls || "–"));
+      isSure ? h("td", {}, falls || "–") : null);
   }
 }
