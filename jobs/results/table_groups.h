@@ -36,7 +36,8 @@ struct RowGroup {
 /// The peak of the slider's acceleration; of other linkages the first metric whose values differ and that no
 /// drive prescribes, or the first one.
 /// @param driven  coordinates that move by a law
-[[nodiscard]] std::string choose_free_metric(const ResultTable& table, const std::vector<std::string>& driven);
+[[nodiscard]] std::string choose_free_metric(const ResultTable& table,
+                                             const std::vector<std::string>& driven);
 
 /// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
 /// first ones, as many at most.
