@@ -34,6 +34,13 @@ const pollMs = 1000;
 const sweepPolls = 5;  // its sweep is asked for with every fifth
 const rememberMs = 400;  // browsers refuse to change the address many times a second
 
+/// "Drive torque", "Drive force", or both.
+/** @param {string[]} channels */
+function titleOfDrives(channels) {
+  const torques = channels.filter((name) => name.endsWith("_n_m")).length;
+  return torques === 0 ? "Drive force" : torques === channels.length ? "Drive torque" : "Drive torque and force";
+}
+
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   const others = (query.get("with") ?? "").split(",").filter(Boolean);
@@ -182,7 +189,7 @@ class JobPage {
       (channel) => this.add(channel, add));
     const plots = [this.main,
       joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
-      drives.length > 0 ? this.card("Drive torque and force", drives) : null,
+      drives.length > 0 ? this.card(titleOfDrives(drives), drives) : null,
       this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay(),
         this.measurements(columns)),
       motionCard(this.job, columns, this.signal),

@@ -7,6 +7,7 @@ import { none, valueOf, valuesOf } from "/study/data.js";
 import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
 
+const [left, right] = [60, 90];
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
 /** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
@@ -81,7 +82,8 @@ const labelsOfNumbers = (values) => (isConstant(values) ? { customValues: number
 /// An axis, with its name above or below it in turn. @param room  pixels from one axis to the next but one
 function dimensionOf({ name, values, isNumeric }, dim, room) {
   return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start",
-    nameTextStyle: { color: colour("text"), fontSize: 11, width: Math.max(36, Math.min(150, room - 8)),
+    nameTextStyle: { color: colour("text"), fontSize: 11,
+      width: Math.max(36, Math.min(dim === 0 ? 2 * left - 8 : 150, room - 8)),
       overflow: "break" },
     axisLine: { lineStyle: { color: colour("quiet") } },
     // On ground of their own, for lines run below them.
@@ -91,8 +93,6 @@ function dimensionOf({ name, values, isNumeric }, dim, room) {
     axisTick: isNumeric && isConstant(values) ? { customValues: numbersOf(values).slice(0, 1) } : {},
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
 }
-
-const [left, right] = [60, 90];
 
 /** @param {SweepPage} sweep  @param {number} width */
 function planOf(sweep, width) {
