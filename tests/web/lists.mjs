@@ -93,6 +93,32 @@ test("studies are sorted and deleted together", async () => {
   await leave(page);
 });
 
+test("measurements are sorted and deleted together", async () => {
+  const channel = "slider_acceleration_m_s2";
+  for (const [name, samples] of [["long", 30], ["short", 20]]) {
+    const times = Array.from({ length: samples }, (_, k) => k / 100);
+    const body = JSON.stringify({ name, channels: [{ name: channel }], runs: [{ time_s: times, values: { [channel]: times } }] });
+    const sent = await fetch(`${url}/v1/measurements`, { method: "POST", body, headers: { "Content-Type": "application/json" } });
+    assert.ok(sent.ok, await sent.text());
+  }
+  const page = await visit("#/measurements");
+  const names = () => page.locator("tbody .name").allTextContents();
+  await page.getByRole("link", { name: "short", exact: true }).waitFor();
+  assert.deepEqual(await names(), ["short", "long"]);
+  await page.getByRole("button", { name: "Samples" }).click();
+  await page.getByRole("button", { name: "Samples ▲" }).click();
+  assert.deepEqual(await names(), ["long", "short"]);
+  assert.match(page.url(), /sort=-samples/);
+  await page.getByRole("checkbox", { name: "Select all measurements" }).check();
+  await page.getByText("2 measurements selected").waitFor();
+  await expectAccessible(page);
+  await picture(page, "measurements");
+  await page.getByRole("button", { name: "Delete selected" }).click();
+  await page.getByRole("button", { name: "Delete", exact: true }).click();
+  await page.getByRole("heading", { name: "No measurements yet." }).waitFor();
+  await leave(page);
+});
+
 test("a view says that it loads", async () => {
   const page = await visit("#/wear");
   await page.getByRole("heading", { name: "Wear" }).first().waitFor();
