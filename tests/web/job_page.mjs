@@ -424,8 +424,9 @@ test("plots of loads reach up to their peaks, which samples miss", async () => {
   await card.locator(`.uplot[data-levels="${peak}"]`).waitFor();
   await card.getByText("Dotted lines stand at the peaks.").waitFor();
   // Ends of envelopes have no entry in the legend, whose entries share a line.
-  const entries = await page.locator(".uplot").first().locator(".u-legend tr").evaluateAll((rows) => rows
-    .filter((each) => each.clientHeight > 0).map((each) => each.getBoundingClientRect().top));
+  await page.locator(".uplot[data-levels='']").first().waitFor();
+  const entries = await page.locator(".uplot[data-levels='']").first().locator(".u-legend tr").evaluateAll((rows) => rows
+    .filter((each) => each.getClientRects().length > 0).map((each) => each.getBoundingClientRect().top));
   assert.equal(entries.length, 2);
   assert.equal(new Set(entries).size, 1);
   // Its drives have both signs.
