@@ -98,7 +98,7 @@ expect_code 2 "$rpsup" extend "$job" more.json
 expect_text err "^rpsup: extend $job: is no id of a sweep$"
 
 # Cancelled, then tried again. Cancelled and failed jobs leave the bar open.
-echo '{"parameters": {"duration_s": 300}, "sweep": {"clearance_mm": [0.3, 0.4, 0.5]}}' >long.json
+echo '{"parameters": {"duration_s": 3600, "output_rate_hz": 10}, "sweep": {"clearance_mm": [0.3, 0.4, 0.5]}}' >long.json
 long=$("$rpsup" submit long.json)
 if command -v script >/dev/null; then
   script --quiet --return --command "stty cols 70 rows 24; $rpsup watch $long" terminal </dev/null >/dev/null &

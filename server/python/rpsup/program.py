@@ -18,6 +18,7 @@ from .errors import ProgramError
 
 START_S = 60.0  # a store of many gigabytes that was not closed is read at the start
 STOP_S = 60.0  # running jobs are put back into the queue
+LAST_S = 0.2  # a program may close its output a moment before its end, by which its exit code is known
 SAID = "rpsup listens on "
 # The shell ends the program when its own input ends, which it does however this process ends.
 WATCH = '"$@" </dev/null & exec >&-; read -r _; kill "$!" 2>/dev/null; wait "$!"'
@@ -77,6 +78,7 @@ def _read_address(process: subprocess.Popen[bytes], log_name: str) -> str:
             raise ProgramError(f"rpsup was not ready within {START_S:.0f} s{_end_of_log(log_name)}")
         block = os.read(process.stdout.fileno(), 4096)
         if not block:
+            time.sleep(LAST_S)
             process.stdin.close()
             code = process.wait()
             raise ProgramError(f"rpsup ended at its start with exit code {code}{_end_of_log(log_name)}")
