@@ -45,7 +45,8 @@ def limit_memory(program, folder, tables, dice, megabytes):
         service = Service(program, store, "--threads", "2",
                           preexec=lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes * MEGABYTE, resource.RLIM_INFINITY)))
     except AssertionError as error:
-        check("rpsup: " in str(error) or "error while loading shared libraries" in str(error), f"with {megabytes} MiB: {error}")
+        of_loader = ("error while loading shared libraries", "cannot allocate TLS data structures")
+        check("rpsup: " in str(error) or any(said in str(error) for said in of_loader), f"with {megabytes} MiB: {error}")
         return False
     acknowledged = {}
     ask_for_a_while(service, dice, acknowledged, 0.3)
