@@ -253,7 +253,7 @@ TEST(HttpToken, ComesBeforeContinue) {
 
 TEST(HttpBody, IsNotAwaitedWhereNoneIsAnnounced) {
   Bench bench;
-  HttpLimits limits;
+  server::HttpLimits limits;
   limits.body_time = 60s;
   HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, limits);
   const int port = http.bind();

@@ -34,7 +34,7 @@ server::Request with_key(const std::string& path, const std::string& body, const
 TEST(IdempotencyKey, GivesTheSameBytesAgain) {
   Bench bench;
   for (const std::string path : {"/v1/sweeps", "/v1/jobs"}) {
-    const std::string body = path == "/v1/jobs" ? R"({"clearance_mm": 0.1})" : kSweep;
+    const std::string body = path == "/v1/jobs" ? R"({"clearance_mm": 0.1})" : kContractSweep;
     const auto first = bench.call(with_key(path, body, "key-of" + path));
     const auto again = bench.call(with_key(path, body, "\"key-of" + path + "\""));
     EXPECT_EQ(first.status, 201);
