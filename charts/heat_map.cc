@@ -22,7 +22,9 @@ struct ValueRange {
   double most = -std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool is_empty() const { return !(least <= most); }
-  [[nodiscard]] double part_of(double value) const { return most > least ? (value - least) / (most - least) : 0.5; }
+  [[nodiscard]] double part_of(double value) const {
+    return most > least ? (value - least) / (most - least) : 0.5;
+  }
 };
 
 ValueRange range_of(const std::vector<HeatMap>& maps) {
@@ -41,12 +43,17 @@ ValueRange range_of(const std::vector<HeatMap>& maps) {
 std::string short_number(double value) {
   const double size = std::abs(value);
   char text[32];
-  std::snprintf(text, sizeof text, size >= 1e5 || (size > 0.0 && size < 1e-3) ? "%.1e" : size >= 100.0 ? "%.0f" : "%.3g", value);
+  std::snprintf(text, sizeof text,
+                size >= 1e5 || (size > 0.0 && size < 1e-3) ? "%.1e"
+                : size >= 100.0                            ? "%.0f"
+                                                           : "%.3g",
+                value);
   return text;
 }
 
 std::string draw_rect(double x, double y, double width, double height, const std::string& look) {
-  return "<rect x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" width=\"" + pixel(width) + "\" height=\"" + pixel(height) + "\" " + look + "/>\n";
+  return "<rect x=\"" + pixel(x) + "\" y=\"" + pixel(y) + "\" width=\"" + pixel(width) + "\" height=\"" +
+         pixel(height) + "\" " + look + "/>\n";
 }
 
 /// Every how many names there is room for one.
@@ -59,7 +66,11 @@ std::size_t stride_for(const std::vector<std::string>& names, double room) {
 class HeatMapDrawing {
  public:
   HeatMapDrawing(const HeatMap& map, const ValueRange& range, double left, double top, double width)
-      : map_(map), range_(range), left_(left), top_(top + kTitle), cell_(std::min((width - left) / static_cast<double>(map.columns.size()), 90.0)) {}
+      : map_(map),
+        range_(range),
+        left_(left),
+        top_(top + kTitle),
+        cell_(std::min((width - left) / static_cast<double>(map.columns.size()), 90.0)) {}
 
   [[nodiscard]] std::string draw(const std::string& x_label) const {
     std::string svg = draw_text({left_, top_ - 8.0}, "start", map_.title, " font-weight=\"bold\"");
@@ -71,12 +82,15 @@ class HeatMapDrawing {
     const std::size_t stride = stride_for(map_.columns, cell_);
     for (std::size_t c = 0; c < map_.columns.size(); c += stride)
       svg += draw_text({x_of(c) + 0.5 * cell_, bottom + 15.0}, "middle", map_.columns[c]);
-    return svg + draw_text({left_ + 0.5 * cell_ * static_cast<double>(map_.columns.size()), bottom + 32.0}, "middle", x_label);
+    return svg + draw_text({left_ + 0.5 * cell_ * static_cast<double>(map_.columns.size()), bottom + 32.0},
+                           "middle", x_label);
   }
 
  private:
   [[nodiscard]] double x_of(std::size_t column) const { return left_ + cell_ * static_cast<double>(column); }
-  [[nodiscard]] double y_of(std::size_t row) const { return top_ + kRow * static_cast<double>(map_.rows.size() - 1 - row); }
+  [[nodiscard]] double y_of(std::size_t row) const {
+    return top_ + kRow * static_cast<double>(map_.rows.size() - 1 - row);
+  }
 
   [[nodiscard]] std::string draw_cell(std::size_t row, std::size_t column) const {
     const double value = map_.values[row][column];
@@ -88,8 +102,11 @@ class HeatMapDrawing {
     const bool largest = value == range_.most;
     std::string svg = draw_rect(x, y, cell_, kRow, "fill=\"" + colour_at(part) + "\"");
     if (cell_ >= kLeastCellWithText)
-      svg += draw_text(middle, "middle", short_number(value), std::string(" font-size=\"10\" fill=\"") + text_colour_on(part) + "\"");
-    if (largest) svg += draw_rect(x + 1.0, y + 1.0, cell_ - 2.0, kRow - 2.0, "fill=\"none\" stroke=\"#d00\" stroke-width=\"2\"");
+      svg += draw_text(middle, "middle", short_number(value),
+                       std::string(" font-size=\"10\" fill=\"") + text_colour_on(part) + "\"");
+    if (largest)
+      svg += draw_rect(x + 1.0, y + 1.0, cell_ - 2.0, kRow - 2.0,
+                       "fill=\"none\" stroke=\"#d00\" stroke-width=\"2\"");
     return svg;
   }
 
@@ -103,7 +120,8 @@ std::string draw_scale(const ValueRange& range, double left, double top, const s
   constexpr double kWidth = 320.0;
   std::string svg;
   for (int k = 0; k < kSteps; ++k)
-    svg += draw_rect(left + kWidth * k / kSteps, top, kWidth / kSteps + 0.5, 12.0, "fill=\"" + colour_at((k + 0.5) / kSteps) + "\"");
+    svg += draw_rect(left + kWidth * k / kSteps, top, kWidth / kSteps + 0.5, 12.0,
+                     "fill=\"" + colour_at((k + 0.5) / kSteps) + "\"");
   return svg + draw_text({left, top + 26.0}, "start", short_number(range.least)) +
          draw_text({left + kWidth, top + 26.0}, "end", short_number(range.most)) +
          draw_text({left + kWidth + 12.0, top + 10.0}, "start", label + ", the largest framed");
@@ -118,8 +136,8 @@ double left_margin_of(const std::vector<HeatMap>& maps) {
 
 }  // namespace
 
-std::string draw_heat_maps(const std::vector<HeatMap>& maps, const std::string& x_label, const std::string& y_label,
-                           const std::string& value_label, int width) {
+std::string draw_heat_maps(const std::vector<HeatMap>& maps, const std::string& x_label,
+                           const std::string& y_label, const std::string& value_label, int width) {
   const ValueRange range = range_of(maps);
   if (range.is_empty()) return "";
   const double left = left_margin_of(maps);
@@ -129,7 +147,8 @@ std::string draw_heat_maps(const std::vector<HeatMap>& maps, const std::string& 
     body += HeatMapDrawing(map, range, left, y, width - 14.0).draw(x_label);
     const double height = kRow * static_cast<double>(map.rows.size());
     const double middle = y + kTitle + 0.5 * height;
-    body += draw_text({12.0, middle}, "middle", y_label, " transform=\"rotate(-90 12.0 " + pixel(middle) + ")\"");
+    body +=
+        draw_text({12.0, middle}, "middle", y_label, " transform=\"rotate(-90 12.0 " + pixel(middle) + ")\"");
     y += kTitle + height + kBelow;
   }
   body += draw_scale(range, left, y, value_label);

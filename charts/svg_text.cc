@@ -8,7 +8,8 @@ namespace {
 
 std::string escape(const std::string& text) {
   std::string safe;
-  for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : text)
+    safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
   return safe;
 }
 
@@ -21,13 +22,17 @@ std::string pixel(double value) {
 }
 
 std::string draw_text(Point at, const char* anchor, const std::string& text, const std::string& more) {
-  return "<text x=\"" + pixel(at.x) + "\" y=\"" + pixel(at.y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + escape(text) + "</text>\n";
+  return "<text x=\"" + pixel(at.x) + "\" y=\"" + pixel(at.y) + "\" text-anchor=\"" + anchor + "\"" + more +
+         ">" + escape(text) + "</text>\n";
 }
 
 std::string wrap_svg(const std::string& body, int width, int height) {
-  const std::string size = "width=\"" + std::to_string(width) + "\" height=\"" + std::to_string(height) + "\"";
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + std::to_string(width) + " " + std::to_string(height) +
-         "\" font-family=\"sans-serif\" font-size=\"12\" fill=\"#222\">\n<rect " + size + " fill=\"#fff\"/>\n" + body + "</svg>\n";
+  const std::string size =
+      "width=\"" + std::to_string(width) + "\" height=\"" + std::to_string(height) + "\"";
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + " viewBox=\"0 0 " + std::to_string(width) +
+         " " + std::to_string(height) +
+         "\" font-family=\"sans-serif\" font-size=\"12\" fill=\"#222\">\n<rect " + size +
+         " fill=\"#fff\"/>\n" + body + "</svg>\n";
 }
 
 }  // namespace charts

@@ -14,7 +14,8 @@ struct Point {
 [[nodiscard]] std::string pixel(double value);
 
 /// @param anchor  start, middle or end  @param more  other attributes, with a blank before each
-[[nodiscard]] std::string draw_text(Point at, const char* anchor, const std::string& text, const std::string& more = "");
+[[nodiscard]] std::string draw_text(Point at, const char* anchor, const std::string& text,
+                                    const std::string& more = "");
 
 /// A document with a white ground, of that size in pixels.
 [[nodiscard]] std::string wrap_svg(const std::string& body, int width, int height);

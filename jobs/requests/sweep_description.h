@@ -14,7 +14,7 @@ inline constexpr std::size_t kLongestNotes = 10'000;  ///< bytes
 inline constexpr std::size_t kMostTags = 20;
 inline constexpr std::size_t kLongestTag = 50;  ///< bytes
 
-/// What people write on a sweep; empty: stays as it is.
+/// Notes of people on a sweep; empty: stays as it is.
 struct SweepDescription {
   std::optional<std::string> name, notes;
   std::optional<std::vector<std::string>> tags;

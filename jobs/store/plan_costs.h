@@ -22,7 +22,7 @@ struct KindCost {
   double other_bytes = 0.0;       ///< of parameters and metrics of them all
 };
 
-/// What the store knows of the jobs of a plan.
+/// Costs of the jobs of a plan, from the store.
 struct PlanCosts {
   std::set<std::string> stored;           ///< content ids of those with a result
   std::map<std::string, KindCost> kinds;  ///< by PlannedJob::kind, those without computed jobs among them

@@ -50,7 +50,7 @@ void add_line(const charts::Series& look, const Line& line, charts::Chart& chart
   chart.series.push_back(std::move(means));
 }
 
-/// What is varied beside the axis along the charts.
+/// Axes beside the one along the charts.
 std::vector<std::string> other_axes(const ReportView& view) {
   std::vector<std::string> others;
   for (const std::string& path : view.axes)

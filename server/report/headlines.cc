@@ -35,7 +35,7 @@ std::vector<RankedRow> rank_rows(const ReportView& view) {
   return ranked;
 }
 
-/// Of each setting the row with the largest value: replicates of one would fill the list.
+/// Row with the largest value of each setting: replicates of one would fill the list.
 std::vector<RankedRow> rank_settings(const ReportView& view) {
   std::set<std::string> seen;
   std::vector<RankedRow> ranked = rank_rows(view);

@@ -76,7 +76,7 @@ std::string axis_text(const json& axis, const std::string& key) {
   return axis.size() > kMostShown ? text + ", … (" + std::to_string(axis.size()) + " values)" : text;
 }
 
-/// What is varied and what was given, a row each; descriptions stand in the request.
+/// Rows of axes and given parameters, without descriptions, which stand in the request.
 void add_configuration(const json& request, std::vector<std::vector<json>>& rows) {
   const auto add = [&](const std::string& key, const json& value, const auto& text_of) {
     rows.push_back({title_of(key).substr(0, title_of(key).find(" [")), text_of(value, key)});

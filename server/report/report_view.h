@@ -15,7 +15,7 @@ namespace server::report {
 
 enum class Appendix { kNone, kRows };
 
-/// What a reader chooses of a report.
+/// Choices of a reader of a report.
 struct ReportQuery {
   std::string metric{};  ///< empty: see jobs::choose_free_metric()
   std::string x{};       ///< axis along the charts; empty: the first with different numbers
