@@ -7,7 +7,7 @@
 #include "engine/clearance/contact_law.h"
 #include "engine/clearance/radial_continuum.h"
 #include "engine/clearance/ring.h"
-#include "engine/clearance/two_rings.h"
+#include "engine/clearance/rings_side_by_side.h"
 #include "engine/math/finite.h"
 
 namespace engine {
@@ -145,8 +145,10 @@ RPSUP_INLINE void add_continuum(const RadialContinuum& contact, const RelativeMo
   }
   int i = 0;
   if constexpr (std::is_same_v<Load, JointLoad<double>>)
-    if (joint.cylinders.law == StiffnessLaw::kHertz)
-      for (; i + 1 < joint.n_r; i += 2) add_two_rings(contact, journal, i, bristles, bristle_rates, load);
+    if (joint.cylinders.law == StiffnessLaw::kHertz) {
+      for (; i + 2 < joint.n_r; i += 4) add_rings<4>(contact, journal, i, bristles, bristle_rates, load);
+      for (; i + 1 < joint.n_r; i += 2) add_rings<2>(contact, journal, i, bristles, bristle_rates, load);
+    }
   for (; i < joint.n_r; ++i)
     add_ring(contact, journal, i, locate_on_round_bore(contact, journal, i), bristles, bristle_rates, load);
 }

@@ -18,15 +18,19 @@ template <typename V>
   if (value_of(squared) > 40.0) return V(p.mu_k);
   return p.mu_k + (p.mu_s - p.mu_k) * exp(-squared);
 }
-[[nodiscard]] RPSUP_INLINE LanePair calc_stribeck_at(const FrictionParameters& p, const LanePair& squared) {
-  return join(calc_stribeck_at(p, squared[0]), calc_stribeck_at(p, squared[1]));
-}
-[[nodiscard]] RPSUP_INLINE Lanes calc_stribeck_at(const FrictionParameters& p, const Lanes& squared) {
-  const Lanes most = Lanes::all(40.0), slid = Lanes::all(p.mu_k);
-  if (all_below(choose_greater(squared, most, Lanes{}, Lanes::all(1.0)), 0.5)) return slid;
-  const Lanes curve =
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> calc_stribeck_at(const FrictionParameters& p,
+                                                             const LaneBlock<count>& squared) {
+  using Block = LaneBlock<count>;
+  const Block most = Block::all(40.0), slid = Block::all(p.mu_k);
+  if (all_below(choose_greater(squared, most, Block{}, Block::all(1.0)), 0.5)) return slid;
+  const Block curve =
       p.mu_k + (p.mu_s - p.mu_k) * calc_exponentials(-choose_greater(squared, most, most, squared));
   return choose_greater(squared, most, slid, curve);
+}
+/// One number alone, to the bit as it would be beside others.
+[[nodiscard]] RPSUP_INLINE double calc_stribeck_at(const FrictionParameters& p, double squared) {
+  return calc_stribeck_at(p, LanePair::first(squared))[0];
 }
 
 template <typename V>

@@ -22,7 +22,12 @@ RadialContinuum::RadialContinuum(const ClearanceParameters& joint)
       ring_damping_(joint.damping / joint.n_r),
       range_(joint.cylinders.range()),
       latches_(static_cast<std::size_t>(joint.n_r)) {
+  constexpr std::size_t kReadTogether = 4;
   for (int i = 0; i < joint.n_r; ++i) positions_.push_back(calc_ring_position(joint, i));
+  setback_.resize(positions_.size(), 0.0);
+  setback_.resize(positions_.size() + kReadTogether, 1.0);
+  positions_.resize(setback_.size());
+  latches_.resize(setback_.size());
 }
 
 Penetration RadialContinuum::calc_penetration(const RelativeMotion<double, double>& journal, int ring) const {

@@ -22,6 +22,10 @@ class RadialContinuum {
   [[nodiscard]] double ring_position(int ring) const {
     return positions_[static_cast<std::size_t>(ring)];
   }  ///< along the journal's axis, [m]
+  [[nodiscard]] const double* ring_positions() const { return positions_.data(); }  ///< [m]
+  /// Of the rings, 0. Those beyond them stand back so far that they never touch. Latches, positions and
+  /// setback may be read four at a time, the last ones beyond the rings. [m]
+  [[nodiscard]] const double* setback() const { return setback_.data(); }
   [[nodiscard]] double ring_stiffness() const {
     return ring_stiffness_;
   }  ///< by Hertz's law, of each, [N/m^1.5]
@@ -44,7 +48,7 @@ class RadialContinuum {
 
   ClearanceParameters joint_;
   double ring_stiffness_, ring_damping_, range_;
-  std::vector<double> positions_;
+  std::vector<double> positions_, setback_;
   std::vector<OnsetLatch> latches_;
 };
 

@@ -25,8 +25,9 @@ template <typename P>
 [[nodiscard]] RPSUP_INLINE P invert_or_zero(const P& a, double least) {
   return value_of(a) > least ? 1.0 / a : P(0.0);
 }
-[[nodiscard]] RPSUP_INLINE LanePair invert_or_zero(const LanePair& a, double least) {
-  return choose_greater(a, LanePair::all(least), LanePair::all(1.0) / a, LanePair{});
+template <int count>
+[[nodiscard]] RPSUP_INLINE LaneBlock<count> invert_or_zero(const LaneBlock<count>& a, double least) {
+  return choose_greater(a, LaneBlock<count>::all(least), 1.0 / a, LaneBlock<count>{});
 }
 
 /// @param position  along the journal's axis

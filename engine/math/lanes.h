@@ -234,12 +234,6 @@ RPSUP_INLINE void store_halves(const LaneBlock<count>& a, double* first, double*
   LaneBlock<count / 2>::load(numbers + count / 2).store(second);
 }
 
-[[nodiscard]] RPSUP_INLINE LanePair join(double a, double b) {
-  LanePair pair;
-  pair.part[0] = LanePair::Part{a, b};
-  return pair;
-}
-
 /// Numbers that stand in pairs, one pair a lane: the first and the second of each.
 struct LanePairs {
   Lanes first, second;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/clearance/two_rings.h"
+#include "engine/clearance/rings_side_by_side.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -39,11 +39,12 @@ class RandomJournals {
   std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
-std::vector<std::uint64_t> bits_of(const JointLoad<double>& load, const std::array<double, 4>& rates) {
+std::vector<std::uint64_t> bits_of(const JointLoad<double>& load, const std::vector<double>& rates) {
+  std::vector<double> numbers{load.force.x,      load.force.y,        load.force.z,           load.moment.x,     load.moment.y,        load.moment.z,
+                              load.impact_power, load.friction_power, load.radial_normal_sum, load.friction_sum, load.max_penetration, load.elastic_energy};
+  numbers.insert(numbers.end(), rates.begin(), rates.end());
   std::vector<std::uint64_t> bits;
-  for (const double x : {load.force.x, load.force.y, load.force.z, load.moment.x, load.moment.y, load.moment.z, load.impact_power, load.friction_power,
-                         load.radial_normal_sum, load.friction_sum, load.max_penetration, load.elastic_energy, rates[0], rates[1], rates[2], rates[3]})
-    bits.push_back(std::bit_cast<std::uint64_t>(x + 0.0));  // the sign of a zero does not count
+  for (const double x : numbers) bits.push_back(std::bit_cast<std::uint64_t>(x + 0.0));  // the sign of a zero does not count
   return bits;
 }
 
@@ -54,7 +55,8 @@ int expect_the_same(const ClearanceParameters& joint) {
   for (int round = 0; round < 2000; ++round) {
     RadialContinuum contact(joint);
     const RingMotion journal = journals.next(), before = journals.next();
-    std::array<double, 4> bristles{}, rates{}, rates_by_two{1.0, 1.0, 1.0, 1.0};
+    const auto count = static_cast<std::size_t>(contact.bristle_count());
+    std::vector<double> bristles(count), rates(count), rates_together(count, 1.0);
     const auto to_journal = [](const RingMotion& m) {
       JournalMotion to;
       to.R_bj << m.R.x.x, m.R.y.x, m.R.z.x, m.R.x.y, m.R.y.y, m.R.z.y, m.R.x.z, m.R.y.z, m.R.z.z;
@@ -65,28 +67,30 @@ int expect_the_same(const ClearanceParameters& joint) {
     };
     if (round % 2 == 0) (void)contact.advance(to_journal(before), to_journal(journals.next()), 1e-5, bristles.data());  // latches some
     for (double& z : bristles) z = journals.bristle();
-    JointLoad<double> one_by_one, two;
-    for (const int i : {0, 1}) add_ring(contact, journal, i, locate_on_round_bore(contact, journal, i), bristles.data(), rates.data(), one_by_one);
-    add_two_rings(contact, journal, 0, bristles.data(), rates_by_two.data(), two);
-    EXPECT_EQ(bits_of(one_by_one, rates), bits_of(two, rates_by_two)) << round;
-    for (const int i : {0, 1}) pressing += locate_on_round_bore(contact, journal, i).delta > 0.0 ? 1 : 0;
+    JointLoad<double> one_by_one, together;
+    for (int i = 0; i < joint.n_r; ++i) add_ring(contact, journal, i, locate_on_round_bore(contact, journal, i), bristles.data(), rates.data(), one_by_one);
+    add_continuum(contact, journal, bristles.data(), rates_together.data(), together);
+    EXPECT_EQ(bits_of(one_by_one, rates), bits_of(together, rates_together)) << round;
+    for (int i = 0; i < joint.n_r; ++i) pressing += locate_on_round_bore(contact, journal, i).delta > 0.0 ? 1 : 0;
   }
   return pressing;
 }
 
-TEST(TwoRings, DoToTheBitWhatOneDoesAfterTheOther) {
-  for (const auto law : {FrictionLaw::kLuGre, FrictionLaw::kDahl, FrictionLaw::kElastoPlastic, FrictionLaw::kCoulomb, FrictionLaw::kAmbrosio}) {
+TEST(RingsSideBySide, DoToTheBitWhatOneDoesAfterTheOther) {
+  for (const int rings : {2, 3, 4, 5, 6, 7}) {
     ClearanceParameters joint;
+    joint.n_r = rings;
     joint.c_r = kRingsClearance;
-    joint.friction = FrictionParameters{.law = law};
-    const int pressing = expect_the_same(joint);
-    EXPECT_GT(pressing, 200);
-    EXPECT_LT(pressing, 3800);
+    for (const auto law : {FrictionLaw::kLuGre, FrictionLaw::kDahl, FrictionLaw::kElastoPlastic, FrictionLaw::kCoulomb, FrictionLaw::kAmbrosio}) {
+      joint.friction = FrictionParameters{.law = law};
+      const int pressing = expect_the_same(joint);
+      EXPECT_GT(pressing, 100 * rings);
+      EXPECT_LT(pressing, 1900 * rings);
+    }
+    joint.friction.reset();
+    joint.damping = 300.0;
+    expect_the_same(joint);
   }
-  ClearanceParameters smooth;
-  smooth.c_r = kRingsClearance;
-  smooth.damping = 300.0;
-  expect_the_same(smooth);
 }
 
 }  // namespace
