@@ -52,7 +52,7 @@ ContactChange AxialFaces::advance(const JournalMotion& start, const JournalMotio
     }
     if (!touched && touching > 0) ++change.face_onsets;
   }
-  change.abrupt = change.any;
+  change.abrupt = change.any && point_damping_ > 0.0;
   return change;
 }
 

@@ -42,7 +42,8 @@ class AxialFaces {
            (1.0 + 1e-12) * joint_.r_j() * std::sqrt(x_z * x_z + y_z * y_z);
   }
 
-  /// Takes note of contacts that began or ended in a step. All changes are abrupt.
+  /// Takes note of contacts that began or ended in a step. Changes are abrupt with
+  /// Kelvin and Voigt's damping alone: by other laws the force of a point begins and ends at zero.
   ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt);
 
  private:

@@ -218,8 +218,8 @@ TEST(RadialElements, BristlesFollowTheContactAroundTheJournal) {
   EXPECT_LT(most, 45 * 4.75e-6);
 }
 
-// Of contacts that begin and end, only single elements of a lasting contact leave the equations of motion nearly as they were.
-TEST(ClearanceJoint, TellsElementsOfALastingContactFromAbruptChanges) {
+// Of contacts that begin and end, only single elements of a lasting contact and points of faces leave the equations of motion nearly as they were.
+TEST(ClearanceJoint, TellsSmallChangesFromAbruptOnes) {
   ClearanceParameters parameters = joint_of_elements(360);
   parameters.c_a = 10e-6;
   ClearanceJoint joint(parameters);
@@ -240,9 +240,23 @@ TEST(ClearanceJoint, TellsElementsOfALastingContactFromAbruptChanges) {
   expect(move_to(journal_at(c_r + 2e-6, 0.0)), false, false, 0);
   expect(move_to(journal_at(c_r + 4e-6, 0.0)), true, false, 0);          // elements more
   expect(move_to(journal_at(c_r + 1e-6, 0.0)), true, false, 0);          // fewer
-  expect(move_to(journal_at(c_r + 1e-6, 0.0, 11e-6)), true, true, 0);    // a face
-  expect(move_to(journal_at(c_r + 1e-6, 0.0)), true, true, 0);
+  expect(move_to(journal_at(c_r + 1e-6, 0.0, 11e-6)), true, false, 0);   // a face
+  expect(move_to(journal_at(c_r + 1e-6, 0.0)), true, false, 0);
   expect(move_to(journal_at(c_r - 1e-6, 0.0)), true, true, 0);           // contact lost
+}
+
+// With Kelvin and Voigt's damping the force of a point begins with a jump.
+TEST(ClearanceJoint, ADampedFaceChangesAbruptly) {
+  for (const double damping : {0.0, 300.0}) {
+    ClearanceParameters parameters = joint_without_friction();
+    parameters.c_a = 10e-6;
+    parameters.damping = damping;
+    ClearanceJoint joint(parameters);
+    std::vector<double> bristles(static_cast<std::size_t>(joint.bristle_count()));
+    const ContactChange change = joint.advance(journal_at(0.0, 0.0), journal_at(0.0, 0.0, 11e-6), 1e-5, bristles.data());
+    EXPECT_TRUE(change.any);
+    EXPECT_EQ(change.abrupt, damping > 0.0);
+  }
 }
 
 TEST(ClearanceJoint, AllChangesOfAContinuumAreAbrupt) {
