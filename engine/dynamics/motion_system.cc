@@ -17,8 +17,8 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
               static_cast<int>(model_.applied_forces.size() + model_.body_loads.size())},
       applied_forces_(mechanism_, model_),
       reaction_friction_(mechanism_),
-      friction_at_(make_evaluation()),
-      drives_(mechanism.drives.size()) {
+      friction_at_(make_evaluation()) {
+  for (DrivesAt& each : last_drives_) each.motion.resize(mechanism.drives.size());
   for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
     if (!mechanism.cut_joints[k].clearance) continue;
     clearance_joints_.emplace_back(*mechanism.cut_joints[k].clearance);
@@ -38,7 +38,7 @@ void MotionSystem::reload_mechanism() {
 /// entries are replaced.
 void MotionSystem::allocate() {
   kernel_ = make_dynamics_kernel(instruction_set_, model_, clearance_joints_, applied_forces_.values());
-  drives_time_ = std::numeric_limits<double>::quiet_NaN();
+  forget_drives();
   solved_ = false;
   set_error_weights();
   for (Eigen::VectorXd* each : {&solved_y_, &dydt_, &time_derivative_})
@@ -86,16 +86,27 @@ Evaluation MotionSystem::make_evaluation() const {
 
 void MotionSystem::follow_drives(const DrivePiece& piece) {
   piece_ = piece;
-  drives_time_ = std::numeric_limits<double>::quiet_NaN();
+  forget_drives();
   solved_ = false;
+}
+
+void MotionSystem::forget_drives() {
+  for (DrivesAt& each : last_drives_) each.t = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// @returns true if the drives have moved since the last evaluation
 bool MotionSystem::move_drives(double t) {
-  if (t == drives_time_) return false;
-  drives_time_ = t;
-  for (std::size_t k = 0; k < drives_.size(); ++k)
-    drives_[k] = calc_driven_motion(mechanism_.drives[k].law, piece_.clamp(t));
+  if (t == drives().t) return false;
+  const auto* const known = std::ranges::find(last_drives_, t, &DrivesAt::t);
+  if (known != last_drives_.end()) {
+    present_ = static_cast<std::size_t>(known - last_drives_.begin());
+    return true;
+  }
+  newest_ = (newest_ + 1) % last_drives_.size();
+  present_ = newest_;
+  last_drives_[present_].t = t;
+  for (std::size_t k = 0; k < mechanism_.drives.size(); ++k)
+    last_drives_[present_].motion[k] = calc_driven_motion(mechanism_.drives[k].law, piece_.clamp(t));
   return true;
 }
 
@@ -104,17 +115,17 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
   if (!reaction_friction_.empty()) return solve(t, y, dydt);
   const bool moved = move_drives(t);
   calc_applied_forces(t, y);
-  return kernel_->evaluate(y.data(), drives_.data(), moved, dydt.data());
+  return kernel_->evaluate(y.data(), drives().motion.data(), moved, dydt.data());
 }
 
 void MotionSystem::calc_applied_forces(double t, const Eigen::VectorXd& y) {
-  applied_forces_.calc(piece_.clamp(t), y, drives_, layout_, reaction_friction_.normal_forces());
+  applied_forces_.calc(piece_.clamp(t), y, drives().motion, layout_, reaction_friction_.normal_forces());
 }
 
 EvaluationStatus MotionSystem::solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   const bool moved = move_drives(t);
   calc_applied_forces(t, y);
-  EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), moved, dydt.data());
+  EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives().motion.data(), moved, dydt.data());
   if (status == EvaluationStatus::kOk && !reaction_friction_.empty()) status = solve_friction(t, y, dydt);
   solved_ = status == EvaluationStatus::kOk;
   solved_y_ = y;
@@ -130,7 +141,8 @@ EvaluationStatus MotionSystem::solve_friction(double t, const Eigen::VectorXd& y
     kernel_->read_out(friction_at_);
     if (reaction_friction_.improve(friction_at_)) return EvaluationStatus::kOk;
     calc_applied_forces(t, y);
-    const EvaluationStatus status = kernel_->evaluate_and_keep(y.data(), drives_.data(), false, dydt.data());
+    const EvaluationStatus status =
+        kernel_->evaluate_and_keep(y.data(), drives().motion.data(), false, dydt.data());
     if (status != EvaluationStatus::kOk) return status;
   }
   return EvaluationStatus::kWedged;
@@ -151,10 +163,10 @@ EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& 
 }
 
 EvaluationStatus MotionSystem::linearise(double t, const Eigen::VectorXd& y, NewtonSolver newton_solver) {
-  const bool is_solved = solved_ && t == drives_time_ && y == solved_y_;
+  const bool is_solved = solved_ && t == drives().t && y == solved_y_;
   const EvaluationStatus status = is_solved ? EvaluationStatus::kOk : solve(t, y, dydt_);
   if (status != EvaluationStatus::kOk) return status;
-  kernel_->linearise(y.data(), drives_.data(), newton_solver, time_derivative_.data());
+  kernel_->linearise(y.data(), drives().motion.data(), newton_solver, time_derivative_.data());
   return EvaluationStatus::kOk;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <complex>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -98,7 +100,15 @@ class MotionSystem {
   void widen_bristles(Eigen::VectorXd& y);
 
  private:
+  /// The drives at the last instants: an implicit step comes back to each of its stages.
+  struct DrivesAt {
+    double t = std::numeric_limits<double>::quiet_NaN();  ///< [s]; no number: not yet computed
+    std::vector<DrivenMotion> motion;
+  };
+
   [[nodiscard]] bool move_drives(double t);
+  [[nodiscard]] const DrivesAt& drives() const { return last_drives_[present_]; }
+  void forget_drives();
   /// Computes dy/dt; the kernel keeps its solution.
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   [[nodiscard]] EvaluationStatus solve_friction(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
@@ -117,11 +127,12 @@ class MotionSystem {
   ReactionFriction reaction_friction_;
   Evaluation friction_at_;  ///< for solve_friction()
 
-  double drives_time_ = std::numeric_limits<double>::quiet_NaN();  ///< of drives_
-  std::vector<DrivenMotion> drives_;
+  std::array<DrivesAt, 4> last_drives_;
+  std::size_t present_ = 0;  ///< of last_drives_: of the last evaluation
+  std::size_t newest_ = 0;   ///< of last_drives_: of the last instant that was new
   DrivePiece piece_;
   std::unique_ptr<DynamicsKernel> kernel_;
-  /// the kernel holds the solution at (drives_time_, solved_y_), with the contacts as they are
+  /// the kernel holds the solution at (drives().t, solved_y_), with the contacts as they are
   bool solved_ = false;
   Eigen::VectorXd solved_y_;
   Eigen::VectorXd dydt_;       ///< for linearise()
