@@ -3,6 +3,7 @@
 
 #include "engine/analysis/linkage_quantities.h"
 #include "engine/analysis/run_observer.h"
+#include "engine/integrate/sample_times.h"
 #include "engine/simulate.h"
 
 namespace engine {
@@ -20,6 +21,7 @@ RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, do
   RunObserver observer(RunMetrics(quantities.measured()),
                        RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),
                        stop_requested);
+  observer.channels.reserve(SampleTimes(options.output_rate, options.duration).count());
   const RunOutcome outcome = simulate(built.mechanism, options, observer);
   RunResult result{.status = outcome.status, .t_end = outcome.t, .detail = outcome.detail};
   if (outcome.status == RunStatus::kSucceeded)

@@ -8,6 +8,7 @@
 #include "engine/analysis/rpsup_quantities.h"
 #include "engine/analysis/run_observer.h"
 #include "engine/analysis/sliding_work.h"
+#include "engine/integrate/sample_times.h"
 #include "engine/model/rpsup.h"
 #include "engine/simulate.h"
 
@@ -42,6 +43,7 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
   RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup)),
                          RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
                          sliding_work, stop_requested);
+  observer.channels.reserve(SampleTimes(options.output_rate, options.duration).count());
   const RunOutcome outcome = simulate(rpsup.mechanism, options, observer);
   RunResult result{.status = outcome.status, .t_end = outcome.t, .detail = outcome.detail};
   if (outcome.status == RunStatus::kSucceeded) {

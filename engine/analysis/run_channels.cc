@@ -45,6 +45,10 @@ RunChannels::RunChannels(std::vector<Channel> channels, const std::vector<NamedF
   trajectory_.columns.resize(trajectory_.channels.size());
 }
 
+void RunChannels::reserve(std::size_t samples) {
+  for (std::vector<double>& column : trajectory_.columns) column.reserve(samples);
+}
+
 void RunChannels::take_step(const Evaluation& start, const Evaluation& end) {
   take_extremes(1.0);
   step_start_ = start.t;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -30,6 +31,9 @@ struct Channel {
 class RunChannels {
  public:
   RunChannels(std::vector<Channel> channels, const std::vector<NamedFrame>& links, Preparation prepare = {});
+
+  /// Makes room for so many samples.
+  void reserve(std::size_t samples);
 
   void take_step(const Evaluation& start, const Evaluation& end);
   void take_sample(const Evaluation& at);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace engine {
 
@@ -15,6 +17,10 @@ class SampleTimes {
     return index_ > 0 && static_cast<double>(index_ - 1) / rate_ >= duration_;
   }
   void take() { ++index_; }
+  /// Number of instants in all, up to a rounding.
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(std::ceil(duration_ * rate_)) + 1;
+  }
 
  private:
   double rate_, duration_;
