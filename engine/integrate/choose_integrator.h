@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/integrate/radau.h"
 #include "engine/model/mechanism.h"
 #include "engine/model/run_options.h"
 
@@ -19,6 +20,11 @@ namespace engine {
 /// clearly less work. Exception: friction without bristles between rigid links asks for tolerances at which
 /// dopri5 takes half the time.
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator requested);
+
+/// How radau5 follows the mechanism. An impact sets off the next ones: with clearance an error counts more.
+/// Little damps the journal on its bore: an error that the iterations leave excites it, above all without the
+/// friction of slow bristles.
+[[nodiscard]] Radau5Settings choose_radau5_settings(const Mechanism& mechanism);
 
 /// Longest step of an error-controlled integrator, [s]. With radau5 and clearance it is shorter where
 /// friction is quick, and where links are elastic: there friction excites vibrations that longer steps would

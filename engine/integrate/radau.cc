@@ -15,12 +15,9 @@ namespace {
 using K = RadauCoefficients;
 
 constexpr int kMaxNewtonIterations = 10;
-constexpr double kKeepJacobianBelow = 0.05;  // convergence rate with which the Jacobian serves another step
-// In units of the tolerance:
-constexpr double kNewtonTolerance = 1e-5;  // more would excite the journal on its bore, where little damps it
 constexpr double kRoundingErrors = 10.0;      // of a number, allowed whatever the tolerance
-constexpr double kNewtonFailureError =
-    40.0;  // of a step whose iterations do not converge: the next try takes a third of it
+// In units of the tolerance, of a step whose iterations do not converge: the next try takes a third of it.
+constexpr double kNewtonFailureError = 40.0;
 
 /// to <- factors[0] of[0] + factors[1] of[1] + factors[2] of[2]
 void combine_stages(const K::Row& factors, const std::array<Eigen::VectorXd, K::kStages>& of,
@@ -30,11 +27,11 @@ void combine_stages(const K::Row& factors, const std::array<Eigen::VectorXd, K::
 
 }  // namespace
 
-Radau5::Radau5(const Tolerance& tolerance, double error_weight)
-    : tolerance_(tolerance),
-      error_weight_(error_weight),
-      newton_tolerance_(std::max(kNewtonTolerance, kRoundingErrors * std::numeric_limits<double>::epsilon() /
-                                                       tolerance.relative())) {}
+Radau5::Radau5(const Tolerance& tolerance, const Radau5Settings& settings)
+    : tolerance_(tolerance), settings_(settings) {
+  const double rounding = kRoundingErrors * std::numeric_limits<double>::epsilon() / tolerance.relative();
+  settings_.newton_tolerance = std::max(settings_.newton_tolerance, rounding);
+}
 
 Trial Radau5::try_step(MotionSystem& system, const StepPoint& start, double dt, StepPoint& end) {
   Trial trial;
@@ -51,7 +48,7 @@ Trial Radau5::try_step(MotionSystem& system, const StepPoint& start, double dt, 
     trial.error = kNewtonFailureError;
   }
   if (outcome != NewtonOutcome::kConverged) return trial;
-  trial.error = error_weight_ * estimate_error(system, start, dt);
+  trial.error = settings_.error_weight * estimate_error(system, start, dt);
   if (!(trial.error <= 1.0)) return trial;
   tried_dt_ = dt;
   end.t = start.t + dt;
@@ -66,7 +63,7 @@ void Radau5::accept() {
   std::swap(Z_, last_Z_);
   last_dt_ = tried_dt_;
   fresh_ = false;
-  linearised_ = linearised_ && convergence_rate_ <= kKeepJacobianBelow;
+  linearised_ = linearised_ && measured_rate_ <= settings_.keep_jacobian_below;
 }
 
 void Radau5::invalidate() {
@@ -75,7 +72,7 @@ void Radau5::invalidate() {
 }
 
 void Radau5::jacobian_refreshed() {
-  factored_dt_ = 0.0;
+  factored_dt_ = measured_rate_ = 0.0;
   linearised_ = fresh_ = true;
 }
 
@@ -126,8 +123,7 @@ Radau5::NewtonOutcome Radau5::solve_stages(MotionSystem& system, const StepPoint
   if (!linearised_) {
     trial.status = system.linearise(start.t, start.y, system.choose_newton_solver(Shifts::kRealAndComplex));
     if (trial.status != EvaluationStatus::kOk) return NewtonOutcome::kFailed;
-    linearised_ = fresh_ = true;
-    factored_dt_ = 0.0;
+    jacobian_refreshed();
   }
   if (dt != factored_dt_)
     factored_dt_ = system.factor(K::shift / dt) && system.factor(K::complex_shift / dt) ? dt : 0.0;
@@ -152,10 +148,10 @@ Radau5::NewtonOutcome Radau5::iterate(MotionSystem& system, const StepPoint& sta
     const double update = newton_iteration(system, dt);
     if (!std::isfinite(update)) return NewtonOutcome::kNotConverged;
     if (iteration > 0) {
-      convergence_rate_ = std::max(update / last_update, 1e-3);
+      convergence_rate_ = measured_rate_ = std::max(update / last_update, 1e-3);
       if (convergence_rate_ >= 1.0) return NewtonOutcome::kNotConverged;
     }
-    if (update * convergence_rate_ <= (1.0 - convergence_rate_) * newton_tolerance_) {
+    if (update * convergence_rate_ <= (1.0 - convergence_rate_) * settings_.newton_tolerance) {
       // One iteration gives no new rate: the old one drifts towards unknown.
       convergence_rate_ =
           std::min(iteration > 0 ? convergence_rate_ : std::pow(convergence_rate_, 0.8), kUnknownRate);

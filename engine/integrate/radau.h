@@ -11,6 +11,13 @@
 
 namespace engine {
 
+struct Radau5Settings {
+  /// Factor on the error estimate, which is of order 3 and damped where the motion is fast.
+  double error_weight = 1.0;
+  double newton_tolerance = 1e-4;  ///< bound of the iterations' remaining error, in units of the tolerance
+  double keep_jacobian_below = 0.02;  ///< convergence rate with which the Jacobian serves another step
+};
+
 /// The Radau IIA method of order 5, L-stable and stiffly accurate: simplified Newton iterations solve for the
 /// three stages of a step together. Where only slow motion is left, above all in lasting contact, its steps
 /// are several times those of a Rosenbrock method, whose stages are tied to the Jacobian at their start. The
@@ -20,9 +27,7 @@ namespace engine {
 /// are theirs; the error estimate is Eq. (8.19).
 class Radau5 final : public Stepper {
  public:
-  /// @param error_weight  factor on the error estimate, which is of order 3 and damped where the motion is
-  /// fast
-  explicit Radau5(const Tolerance& tolerance, double error_weight = 1.0);
+  explicit Radau5(const Tolerance& tolerance, const Radau5Settings& settings = {});
 
   [[nodiscard]] Trial try_step(MotionSystem& system, const StepPoint& start, double dt,
                                StepPoint& end) override;
@@ -53,8 +58,7 @@ class Radau5 final : public Stepper {
   static constexpr double kUnknownRate = 0.5;
 
   const Tolerance& tolerance_;
-  double error_weight_;
-  double newton_tolerance_;    ///< bound of the iterations' remaining error, in units of the tolerance
+  Radau5Settings settings_;
   Eigen::VectorXd norm_weights_;  ///< of the entries under error control, at the step's start
   Stages Z_;                   ///< differences of the stages from the start
   Stages f_;                   ///< derivatives at the stages
@@ -69,7 +73,8 @@ class Radau5 final : public Stepper {
   double factored_dt_ = 0.0;   ///< step that the system's factors belong to, [s]; 0: none
   bool linearised_ = false;    ///< the system has a Jacobian ...
   bool fresh_ = false;         ///< ... of this start
-  double convergence_rate_ = kUnknownRate;  ///< factor by which an iteration reduces the error
+  double convergence_rate_ = kUnknownRate;  ///< factor by which an iteration reduces the error ...
+  double measured_rate_ = 0.0;  ///< ... as last measured with this Jacobian, by two iterations; 0: not yet
 };
 
 }  // namespace engine

@@ -9,10 +9,8 @@ namespace engine {
 
 std::unique_ptr<Stepper> make_stepper(const Mechanism& mechanism, Integrator integrator,
                                       const Tolerance& tolerance) {
-  constexpr double kImpactWeight = 50.0;  // of radau5's errors: an impact sets off the next ones
   switch (integrator) {
-    case Integrator::kRadau5:
-      return std::make_unique<Radau5>(tolerance, has_clearance(mechanism) ? kImpactWeight : 1.0);
+    case Integrator::kRadau5: return std::make_unique<Radau5>(tolerance, choose_radau5_settings(mechanism));
     case Integrator::kRodas5: return std::make_unique<Rodas5>(tolerance);
     case Integrator::kDopri5: return std::make_unique<Dopri5>(tolerance);
     case Integrator::kAuto:
