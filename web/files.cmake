@@ -158,6 +158,7 @@ set(page_files
   study/row_filter.js
   study/row_window.js
   study/scatter.js
+  study/seen_charts.js
   study/selection.js
   study/span.js
   study/study_list.js

@@ -232,6 +232,7 @@ test("a sweep tells its configuration, is extended, reported and deleted", async
     ["0.1 to 0.2 mm, 2 values", "rigid", "0.02 s", "defaults"]);
   assert.equal(shown.Restitution, undefined, "a parameter with its default value");
   await configuration.getByText("Request", { exact: true }).click();
+  await configuration.locator("pre:not(:empty)").waitFor();
   assert.deepEqual(JSON.parse(await configuration.locator("pre").textContent()), sweep.request);
   await expectAccessible(page);
   await picture(page, "configuration");

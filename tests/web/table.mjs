@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { force, metric, row, visitRows } from "./given.mjs";
+import { drawn as chartOf, force, metric, row, visitRows } from "./given.mjs";
 import { endVisits, expectAccessible, leave, picture, visit } from "./visitor.mjs";
 
 after(endVisits);
@@ -41,6 +41,49 @@ test("of ten thousand rows those that are seen are drawn, below a heading that s
   assert.ok((await places(page)).length < 100);
   await expectAccessible(page);
   await picture(page, "table_end");
+  await leave(page);
+});
+
+test("of many rows the columns that are seen are drawn, each below its heading", async () => {
+  const page = await visitRows(["clearance_mm", "coupler"], many, { width: 700 });
+  const last = "Count 7";
+  const cells = () => region(page).locator("tr[aria-rowindex='3'] td:not([aria-hidden])").count();
+  assert.ok(await cells() < 13, `${await cells()} cells in a row`);
+  assert.equal(await page.locator("table.rows").getAttribute("aria-colcount"), "15");
+  await region(page).evaluate((element) => { element.scrollLeft = element.scrollWidth; });
+  const cell = page.locator("tr[aria-rowindex='3'] td[aria-colindex='15']");
+  await cell.waitFor();
+  assert.equal(await cell.textContent(), "8");
+  const [place, heading] = await Promise.all([cell.boundingBox(), page.locator("thead th", { hasText: last }).boundingBox()]);
+  assert.ok(Math.abs(place.x - heading.x) < 1, `the cell at ${place.x}, its heading at ${heading.x}`);
+  await leave(page);
+});
+
+test("after a jump the rows around what is seen follow", async () => {
+  const page = await visitRows(["clearance_mm", "coupler"], many);
+  await region(page).evaluate((element) => { element.scrollTop = 7000 * 36; });
+  await page.locator("tr[aria-rowindex='7002']").waitFor();
+  await page.locator("tr[aria-rowindex='6996']").waitFor();
+  await leave(page);
+});
+
+test("many jobs: the name stands before the rows, and a chart is drawn once it is near", async () => {
+  const page = await visitRows(["clearance_mm", "coupler"], many);
+  const scatter = page.locator(".chart").nth(3);
+  assert.equal(await scatter.locator("canvas").count(), 0);
+  await scatter.scrollIntoViewIfNeeded();
+  await scatter.locator("canvas").first().waitFor();
+  // A selection in the table draws it anew when it is seen again.
+  const rings = () => chartOf(page, 3).then(({ series }) => series.at(-1).length);
+  await region(page).evaluate((element) => { element.scrollIntoView(); });
+  await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+  await page.getByRole("checkbox", { name: "Select job_00001" }).check();
+  await scatter.scrollIntoViewIfNeeded();
+  while (await rings() !== 1) await page.waitForTimeout(50);
+  await page.route("**/v1/sweeps/swp_given/results**", () => {});
+  await page.reload();
+  await page.getByRole("heading", { name: "given" }).waitFor();
+  await page.getByText("Loading 10,000 jobs …").waitFor();
   await leave(page);
 });
 

@@ -79,6 +79,15 @@ export async function laidOut(element, signal) {
   while (element.clientWidth === 0 && !signal.aborted) await new Promise(requestAnimationFrame);
 }
 
+/// Resolves once what stands in the page now is on the screen. A hidden page, which has no frames, is not waited for.
+/** @returns {Promise<void>} */
+export function painted() {
+  return new Promise((resolve) => {
+    if (document.hidden) setTimeout(resolve);
+    else requestAnimationFrame(() => setTimeout(resolve));
+  });
+}
+
 let nextId = 0;
 
 /// An id that no other element has.

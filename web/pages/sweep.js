@@ -21,6 +21,7 @@ import { linesChart } from "/study/lines.js";
 import { logBoxes } from "/study/log_axes.js";
 import { parallelChart, parallelNote } from "/study/parallel.js";
 import { scatterChart, scatterChoice } from "/study/scatter.js";
+import { SeenCharts } from "/study/seen_charts.js";
 import { Selection } from "/study/selection.js";
 import { drawPickers } from "/study/sweep_pickers.js";
 import { editLabels, tagBadges } from "/study/sweep_labels.js";
@@ -37,11 +38,22 @@ export async function show(main, { id, query, signal }) {
   loadCharts().catch(() => {});  // told where a chart would be
   // Without the schema only a sentence on missing values knows less.
   const schemaIfAny = parameterSchema().catch(() => ({ properties: {} }));
-  const [sweep, rows, schema] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal), schemaIfAny]);
+  const given = Promise.all([findResults(id, {}, signal), schemaIfAny]);
+  given.catch(() => {});  // told below, also if there is no such sweep
+  const sweep = await findSweep(id, signal);
+  showWhatComes(main, sweep);
+  const [rows, schema] = await given;
   const page = new SweepPage(sweep, rows, schema, query, signal);
   main.replaceChildren(...page.parts());
   page.start();
   await page.compareWith(query.get("with") ?? "");
+}
+
+/// The name of the sweep, while its rows are on their way.
+/** @param {HTMLElement} main  @param {Api.Sweep} sweep */
+function showWhatComes(main, { id, name, counts }) {
+  main.replaceChildren(h("h1", {}, name || id),
+    h("p", { class: "quiet loading", role: "status" }, `Loading ${plural(counts.total, "job")} …`));
 }
 
 export class SweepPage {
@@ -49,8 +61,6 @@ export class SweepPage {
   failures = new Failures();
   /** @type {{ id: string, name: string, axes: string[], rows: Api.Row[] } | null} */
   others = null;  // what lies beside it, thin and with hollow marks
-  /** @type {(Chart | null)[]} */
-  charts = [];
   title = h("h1");
   tags = h("p", { class: "small" });
   notes = h("p", { class: "notes" });
@@ -102,6 +112,8 @@ export class SweepPage {
     this.curves = curveChoice(this, () => this.changed());
     this.scatterChoice = scatterChoice(this, () => this.changed());
     this.configuration = configurationCard(this);
+    this.charts = new SeenCharts(this, [[heatMap, this.heat], [linesChart, this.lines],
+      [parallelChart, this.parallel], [scatterChart, this.scatter]]);
   }
 
   parts() {
@@ -126,7 +138,7 @@ export class SweepPage {
    * @param {{ help?: HTMLElement, tools?: HTMLElement[] }} more
    */
   card(title, element, index, { help, tools = [] } = {}) {
-    const save = saveButtons(() => this.charts[index],
+    const save = saveButtons(() => this.charts.at(index),
       () => `${this.sweep.name || this.sweep.id} ${title.toLowerCase()}`);
     return h("section", { class: "card" },
       h("div", { class: "head" }, h("h2", {}, title), h("span", { class: "actions" }, ...tools, save)), help,
@@ -138,7 +150,7 @@ export class SweepPage {
     this.reloading = this.learnFailures();
     drawChosen(this.chosen, this.selection);
     this.selection.addEventListener("change", () => this.changed());
-    this.makeCharts();
+    this.charts.make();
     this.drawPaper();
     if (isUnderWay(this.sweep)) this.followIt();
     this.watchForRetries();
@@ -157,23 +169,6 @@ export class SweepPage {
       } catch (error) {
         if (error.status === 404) tell("This sweep has been deleted.");
         if (error.name === "AbortError" || error.status === 404) return;
-      }
-    }
-  }
-
-  /// One in each frame, so that the first is seen before the last is made.
-  async makeCharts() {
-    /** @type {[typeof heatMap, HTMLElement][]} */
-    const places = [[heatMap, this.heat], [linesChart, this.lines], [parallelChart, this.parallel],
-      [scatterChart, this.scatter]];
-    for (const [make, element] of places) {
-      await new Promise(requestAnimationFrame);
-      if (this.signal.aborted) return;
-      try {
-        this.charts.push(await make(element, this, this.signal));
-      } catch (error) {
-        this.charts.push(null);
-        element.replaceChildren(h("p", { class: "trouble" }, error.message));
       }
     }
   }
@@ -244,7 +239,7 @@ export class SweepPage {
 
   drawAll() {
     this.drawTexts();
-    for (const chart of this.charts) chart?.draw();
+    this.charts.draw();
   }
 
   drawTexts() {

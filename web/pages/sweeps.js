@@ -40,7 +40,8 @@ export async function show(main, { query, signal }) {
   main.replaceChildren(...view.parts());
   await view.refresh();
   view.keepAsking();
-  requestIdleCallback(() => loadCharts().catch(() => {}));  // the next view needs it
+  // The next view needs them.
+  requestIdleCallback(() => Promise.all([loadCharts(), import("/pages/sweep.js")]).catch(() => {}));
 }
 
 class SweepList {

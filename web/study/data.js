@@ -6,7 +6,7 @@ const notMetrics = new Set(["job_id", "state", "replicate", "replicates"]);
 /// The columns of the rows that are numbers of the result.
 /** @param {Api.Row[]} rows  @param {string[]} axes */
 export function metricsOf(rows, axes) {
-  const columns = new Set(rows.flatMap((row, index) => (index < 50 ? Object.keys(row) : [])));
+  const columns = new Set(rows.slice(0, 50).flatMap((row) => Object.keys(row)));
   return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_")
     && !axes.includes(column));
 }
@@ -43,18 +43,36 @@ function compare(a, b) {
   return typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en");
 }
 
-/** @type {WeakMap<Api.Row[], Map<string, (string | number)[]>>} */
-const known = new WeakMap();  // by rows, then by axis: many parts ask for the same
+/** @type {WeakMap<Api.Row[], Map<string, any>>} */
+const known = new WeakMap();  // by rows, then by name
+
+/// What is found in rows, looked for once as long as these are the rows: many parts of a page ask for the same.
+/// @param name  of what is found, another one for each question
+/**
+ * @template Found
+ * @param {Api.Row[]} rows
+ * @param {string} name
+ * @param {() => Found} find
+ * @returns {Found}
+ */
+export function onceFor(rows, name, find) {
+  const ofRows = known.get(rows) ?? new Map();
+  known.set(rows, ofRows);
+  if (!ofRows.has(name)) ofRows.set(name, find());
+  return ofRows.get(name);
+}
 
 /// The different values of an axis: numbers from the least to the largest, anything else in the order that
 /// was asked for, which is that of the jobs. An object or list stands as its JSON; a missing value is the last one.
 /** @param {Api.Row[]} rows  @param {string} axis */
 export function valuesOf(rows, axis) {
-  const ofRows = known.get(rows) ?? new Map();
-  known.set(rows, ofRows);
-  const values = ofRows.get(axis) ?? inOrder([...new Set(rows.map((row) => valueOf(row, axis)))]);
-  ofRows.set(axis, values);
-  return values;
+  return onceFor(rows, `values of ${axis}`, () => inOrder([...new Set(rows.map((row) => valueOf(row, axis)))]));
+}
+
+/// True of a column that has a number in some row. The values need not be sorted for that.
+/** @param {Api.Row[]} rows  @param {string} column */
+export function hasNumbers(rows, column) {
+  return onceFor(rows, `numbers in ${column}`, () => rows.some((row) => typeof row[column] === "number"));
 }
 
 /** @param {(string | number)[]} values */

@@ -6,7 +6,7 @@ import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.j
 import { colour } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
 import { curvesOf, drawnCurves, looksOf, mostCurves, nameOfCurve, rolesOf } from "/study/curves.js";
-import { averagedAxes, valuesOf } from "/study/data.js";
+import { averagedAxes, onceFor, valuesOf } from "/study/data.js";
 import { legendOf } from "/study/legend.js";
 import { chosenLogs } from "/study/log_axes.js";
 import { whyEmpty, withoutValue } from "/study/missing.js";
@@ -37,6 +37,13 @@ export function linesChart(element, sweep, signal) {
 /// Curves of the sweep and of the one beside it: all of them, and those that are drawn.
 /** @param {SweepPage} sweep */
 export function curvesOfSweep(sweep) {
+  const { rows, view, others } = sweep;
+  const asked = [view.metric, view.x, view.y, view.panel, view.curves, others?.id];
+  return onceFor(rows, `curves of ${JSON.stringify(asked)}`, () => findCurves(sweep));
+}
+
+/** @param {SweepPage} sweep */
+function findCurves(sweep) {
   const { rows, view, others } = sweep;
   const roles = rolesOf(sweep);
   const own = curvesOf(rows, view, roles);

@@ -3,7 +3,7 @@
 import { makeChart, nothingYet } from "/core/charts.js";
 import { exact, number, plural, titleOf } from "/core/format.js";
 import { colour, linePalette } from "/core/theme.js";
-import { none, valueOf, valuesOf } from "/study/data.js";
+import { none, onceFor, valueOf, valuesOf } from "/study/data.js";
 import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
 
@@ -41,7 +41,11 @@ const roomy = { scale: true, min: (extremes) => ends(extremes).min - beyond(ends
 /// One that would lead across a gap
 /// is left out, for there is no way to draw it that tells the truth.
 /** @param {SweepPage} sweep */
-function layOut({ rows, axes, metrics, view }) {
+const layOut = ({ rows, axes, metrics, view }) => onceFor(rows, `lines up to ${view.metric} over ${axes}`,
+  () => arrange({ rows, axes, metrics, view }));
+
+/** @param {Pick<SweepPage, "rows" | "axes" | "metrics" | "view">} sweep */
+function arrange({ rows, axes, metrics, view }) {
   const computed = rows.filter((row) => row.state === "succeeded");
   const names = [...axes, ...new Set([...someMetrics.filter((metric) => metrics.includes(metric)), view.metric])];
   const columns = names.map((name) => {

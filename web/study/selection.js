@@ -23,7 +23,8 @@ export class Selection extends EventTarget {
   /// Takes jobs in, or out if all of them are in.
   /** @param {string[]} ids */
   toggle(ids) {
+    const given = new Set(ids);
     const all = ids.every((id) => this.#ids.has(id));
-    this.set(all ? this.ids.filter((id) => !ids.includes(id)) : [...this.#ids, ...ids]);
+    this.set(all ? this.ids.filter((id) => !given.has(id)) : [...this.#ids, ...ids]);
   }
 }

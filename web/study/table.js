@@ -6,12 +6,13 @@ import { number, plural, titleOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
 import { columnChoice } from "/study/column_choice.js";
-import { sortedBy, valueOf, valuesOf } from "/study/data.js";
+import { hasNumbers, sortedBy, valueOf, valuesOf } from "/study/data.js";
 import { missingText } from "/study/missing.js";
 import { filterOf } from "/study/row_filter.js";
 import { RowWindow } from "/study/row_window.js";
 
 const rowHeight = 36;  // pixels, as in the style sheet
+const [widthOfBox, widthOfJob] = [68, 92];
 const widthOfLetter = 9.5;
 const [leastWidth, largestWidth] = [88, 400];
 
@@ -32,6 +33,8 @@ export class ResultTable {
     this.filters = new Map();
     this.isFiltered = false;
     this.drawnHead = "";
+    /** @type {number[]} */
+    this.widths = [];  // of the columns that are shown, in pixels
     this.head = h("tr");
     this.filterRow = h("tr", { class: "filters" });
     this.body = h("tbody");
@@ -48,7 +51,8 @@ export class ResultTable {
     this.table = h("table", { class: "rows" }, this.columns, h("thead", {}, this.head), this.body);
     this.scroll = h("div", { class: "scroll rows", tabindex: 0, role: "region", "aria-label": "Results" },
       this.table);
-    this.window = new RowWindow(this.scroll, this.body, rowHeight, (row, place) => this.row(row, place));
+    this.window = new RowWindow(this.scroll, this.body, { rowHeight, before: widthOfBox + widthOfJob,
+      make: (row, place, from, to) => this.row(row, place, from, to) });
     this.element = h("div", {}, this.missing,
       h("p", { class: "actions" }, this.choice.element, this.filterButton,
         h("label", {}, only, " Selected only"), this.where),
@@ -86,7 +90,7 @@ export class ResultTable {
     this.drawHead();
     this.drawMissing();
     const rows = this.visible();
-    this.window.show(rows);
+    this.window.show(rows, this.widths);
     this.table.setAttribute("aria-rowcount", String(rows.length + 1));
     const { length } = this.sweep.rows;
     this.where.textContent = rows.length === length ? plural(length, this.noun)
@@ -100,9 +104,11 @@ export class ResultTable {
     const drawn = JSON.stringify([this.isFiltered, this.shown]);
     if (drawn === this.drawnHead) return;
     this.drawnHead = drawn;
-    const widths = (this.shown ?? []).map((column) => this.widthOf(column));
-    this.columns.replaceChildren(...[68, 92, ...widths].map((width) => h("col", { width })));
-    this.table.style.width = `${160 + widths.reduce((sum, width) => sum + width, 0)}px`;
+    this.widths = (this.shown ?? []).map((column) => this.widthOf(column));
+    const all = [widthOfBox, widthOfJob, ...this.widths];
+    this.columns.replaceChildren(...all.map((width) => h("col", { width })));
+    this.table.style.width = `${all.reduce((sum, width) => sum + width, 0)}px`;
+    this.table.setAttribute("aria-colcount", String(all.length));
     this.filterRow.remove();
     this.filterRow.replaceChildren(h("td", { colspan: 2 }), ...(this.shown
       ?? []).map((column) => this.filterCell(column)));
@@ -113,11 +119,11 @@ export class ResultTable {
   /// are drawn.
   /** @param {string} column */
   widthOf(column) {
-    const values = valuesOf(this.sweep.rows, column);
-    const some = this.isNumeric(column) ? [] : values.slice(0, 1000);
+    const { rows } = this.sweep;
+    const some = this.isNumeric(column) ? [] : valuesOf(rows, column).slice(0, 1000);
     const longest = Math.max(0, ...some.map((value) => String(value).length));
     const word = Math.max(...this.titleOf(column).split(" ").map(({ length }) => length));
-    const reason = column === "state" && values.includes("failed") ? largestWidth : 0;
+    const reason = column === "state" && some.includes("failed") ? largestWidth : 0;
     return Math.min(largestWidth, Math.max(leastWidth, reason, widthOfLetter * Math.max(longest, word) + 20));
   }
 
@@ -153,7 +159,7 @@ export class ResultTable {
 
   /** @param {string} column */
   isNumeric(column) {
-    return valuesOf(this.sweep.rows, column).some((value) => typeof value === "number");
+    return hasNumbers(this.sweep.rows, column);
   }
 
   /// Numbers stand below each other at their last digit, and their heading there, too.
@@ -180,23 +186,29 @@ export class ResultTable {
     return h("td", {}, input);
   }
 
-  /** @param {Api.Row} row  @param {number} place */
-  row(row, place) {
+  /// Row with the cells of some columns, and one cell each for those before and after them.
+  /** @param {Api.Row} row  @param {number} place  @param {number} from  @param {number} to */
+  row(row, place, from, to) {
     const { selection } = this.sweep;
     const box = h("input",
       { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
     box.checked = selection.has(row.job_id);
     return h("tr", { class: box.checked ? "selected" : null, "aria-rowindex": place + 2 }, h("td", {}, box),
       h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", row.job_id) }, `…${row.job_id.slice(-5)}`)),
-      (this.shown ?? []).map((column) => this.cell(row, column)));
+      this.gap(from), (this.shown ?? []).slice(from, to).map((column, k) => this.cell(row, column, from + k)),
+      this.gap(this.widths.length - to));
   }
 
-  /** @param {Api.Row} row  @param {string} column */
-  cell(row, column) {
+  /// Empty cell as wide as so many columns.
+  /** @param {number} count */
+  gap(count) { return count > 0 ? h("td", { colspan: count, "aria-hidden": "true" }) : null; }
+
+  /** @param {Api.Row} row  @param {string} column  @param {number} index */
+  cell(row, column, index) {
     const value = valueOf(row, column);
     if (column === "state") return this.stateCell(row);
     const given = this.sweep.axes.includes(column);
-    return h("td", { class: this.lookOf(column) ?? "cut" }, number(value, given ? 6 : 4));
+    return h("td", { class: this.lookOf(column) ?? "cut", "aria-colindex": index + 3 }, number(value, given ? 6 : 4));
   }
 
   /** @param {Api.Row} row */
