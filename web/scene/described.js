@@ -98,7 +98,8 @@ export class DescribedLinkage {
     const bodyColour = coloursOf(given);
     this.THREE = THREE;
     this.group = new THREE.Group();
-    this.radius = 0.012 * reachOf(linkage);
+    this.reach = reachOf(linkage);
+    this.radius = 0.012 * this.reach;
     this.bodies = new Map();
     this.beams = new Map();
     /** @type {import("/scene/marks.js").Mark[]} */
@@ -191,6 +192,10 @@ export class DescribedLinkage {
     const own = new THREE.Vector3(index > 0 ? x - (2 * index - 1) * end : x, y, z);
     return { position: own.applyQuaternion(turn).add(new THREE.Vector3(px, py, pz)), turn };
   }
+
+  /// Position of a journal, ball or block on its body.
+  /** @param {{ body: string, at: number[] }} place  @param {Record<string, number[]>} frames */
+  journalAt(place, frames) { return this.#frameAt(place, frames).position; }
 
   /// @param frames  {link: [x, y, z, qx, qy, qz, qw]}
   /// @param values  of the channels of the loads

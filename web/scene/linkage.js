@@ -135,6 +135,9 @@ export class Linkage {
 
   get joint() { return this.bush.position; }
 
+  /// Where the force on the journal is drawn: in the bearing as it is drawn.
+  journalAt() { return this.joint; }
+
   /// The bearing's axis now.
   get jointAxis() { return new this.THREE.Vector3(0, 0, 1).applyQuaternion(this.bush.quaternion); }
 }

@@ -6,7 +6,7 @@ import { saveCanvas } from "/core/download.js";
 import { number } from "/core/format.js";
 import { DescribedLinkage, bodyColours, channelsOf, reachOf } from "/scene/described.js";
 import { placesOf } from "/scene/geometry.js";
-import { JointForce, forceChannels, forceFactors, largestForce } from "/scene/joint_force.js";
+import { JointForces, forceFactors, forcesOf } from "/scene/joint_force.js";
 import { Linkage, linkColours } from "/scene/linkage.js";
 import { loadColour } from "/scene/loads.js";
 import { Player, impactsOf } from "/scene/player.js";
@@ -29,7 +29,7 @@ export function sceneCard(job, channels, times, signal) {
   const hasClearance = !described && job.parameters.clearance_mm > 0;
   const isFlexible = ["coupler", "crank", "rod", "cross"].some((link) => job.parameters[link] === "flexible");
   const drawn = { clearance: hasClearance ? 20 : 1, bend: isFlexible ? 20 : 1, force: 1 };
-  const hasForce = hasClearance && forceChannels.every((name) => channels.includes(name));
+  const forces = forcesOf(job.parameters, channels);
   const scale = h("span");
   const canvas = h("canvas",
     { class: "scene", role: "img", tabindex: 0,
@@ -51,30 +51,30 @@ export function sceneCard(job, channels, times, signal) {
 
   async function start() {
     const links = linksOf(channels);
-    const { loads, journals } = described ? channelsOf(described, channels)
-      : { loads: hasForce ? forceChannels : [], journals: [] };
-    const [libraries, ranges] = await Promise.all([loadThree(), rangesOf(job, [...loads, ...journals], signal)]);
+    const { loads, journals } = described ? channelsOf(described, channels) : { loads: [], journals: [] };
+    const followed = [...loads, ...forces.flatMap((force) => force.channels)];
+    const [libraries, ranges] = await Promise.all([loadThree(), rangesOf(job, [...followed, ...journals], signal)]);
     if (signal.aborted) return;
     const { parameters } = job;
     const linkage = described ? new DescribedLinkage(libraries.THREE, described, links, ranges)
       : new Linkage(libraries.THREE, parameters, links);
     const stage = new Stage(libraries, canvas, shownOf(parameters), signal);
     stage.scene.add(linkage.group);
-    const force = hasForce && linkage instanceof Linkage
-      ? new JointForce(libraries.THREE, largestForce(job, ranges), parameters.crank_length_m,
-        0.6 * linkage.measures.crank.radius) : null;
-    if (force) stage.scene.add(force.arrow.object);
-    const poses = new Poses(job, { links, others: loads },
+    const arrows = forces.length > 0 ? new JointForces(libraries.THREE, { job, forces, ranges,
+      ...arrowSizes(job, linkage) }) : null;
+    if (arrows) stage.scene.add(arrows.group);
+    const poses = new Poses(job, { links, others: followed },
       (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
     draw = () => {
       const shown = poses.at(times.instant, player.speed);
       if (!shown) return;
       if (linkage instanceof Linkage) linkage.place(shown.frames, drawn);
-      if (linkage instanceof Linkage && force) {
-        canvas.dataset.force = String(force.place(linkage.joint, shown.values, drawn.force));
-        scale.textContent = force.scaleWords(drawn.force);
+      else linkage.place(shown.frames, shown.values);
+      if (arrows) {
+        const sizes = arrows.place((force) => linkage.journalAt(force, shown.frames), shown.values, drawn.force);
+        canvas.dataset.force = JSON.stringify(sizes);
+        scale.textContent = arrows.scaleWords(drawn.force);
       }
-      if (linkage instanceof DescribedLinkage) linkage.place(shown.frames, shown.values);
       canvas.dataset.instant = String(times.instant);
       stage.request();
     };
@@ -108,12 +108,21 @@ export function sceneCard(job, channels, times, signal) {
     h("p", { class: "actions" }, choice("Speed", speeds.map((speed) => [String(speed), `× ${number(speed)}`]),
       String(player.speed), (value) => { player.speed = Number(value); draw(); }), described ? null : views,
       hasClearance ? enlarge("Clearance scale", "clearance") : null,
-      hasForce ? enlarge("Force scale", "force", forceFactors) : null,
+      forces.length > 0 ? enlarge("Force scale", "force", forceFactors) : null,
       isFlexible ? enlarge("Deflection scale", "bend", bendFactors) : null,
       hasClearance ? h("label", { class: "small" }, slow, " slow motion at impacts") : null),
     h("p", { class: "legend small" }, (described ? bodyColours(described) : linkColours)
       .map(([name, colour]) => h("span", {}, swatch(colour), ` ${name}`)),
-      hasForce ? h("span", {}, swatch(loadColour), " ", scale) : null), status);
+      forces.length > 0 ? h("span", {}, swatch(loadColour), " ", scale) : null), status);
+}
+
+/// Thickness of the arrows of forces, and the length that their scale is told in.
+/** @param {Api.Job} job  @param {Linkage | DescribedLinkage} linkage */
+function arrowSizes({ parameters }, linkage) {
+  if (linkage instanceof Linkage) return { radius: 0.6 * linkage.measures.crank.radius,
+    length: { size: parameters.crank_length_m, words: "force on the journal: as long as the crank" } };
+  const size = Number((linkage.reach / 3).toPrecision(1));
+  return { radius: 0.6 * linkage.radius, length: { size, words: `force on each journal: ${number(1000 * size)} mm` } };
 }
 
 /// Size, upward direction and points of a linkage, for the stage.
