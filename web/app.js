@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows the view that the address names, and gives it up when the address changes.
 import { findHealth, isAway } from "/core/api.js";
+import { startDefinitions } from "/core/definition.js";
 import { readRoute } from "/core/route.js";
 import { h, part } from "/core/dom.js";
 import { pause, persist } from "/core/live.js";
 import { Missing, loadModule, nextWait, tryAgain } from "/core/modules.js";
-import { startDefinitions } from "/core/quantities.js";
 import { startTheme } from "/core/theme.js";
 
 const pages = {

@@ -16,6 +16,7 @@ set(page_files
   app.js
   core/api.js
   core/charts.js
+  core/definition.js
   core/dialog.js
   core/dom.js
   core/download.js

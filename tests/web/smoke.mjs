@@ -148,21 +148,82 @@ test("the form counts the jobs that the service makes", async () => {
 test("metrics and channels are defined where they are pointed at", async () => {
   const { id } = await runSweep({ parameters: short, sweep: { clearance_mm: [0.1, 0.2] } });
   const page = await visit(`#/sweeps/${id}`);
-  const titleOf = async (element, text) => {
-    await element.hover();
-    await page.waitForFunction((wanted) => [...document.querySelectorAll("[data-quantity]")].some(({ title }) => title.includes(wanted)), text);
-    return element.getAttribute("title");
+  const told = async (element, text) => {
+    // While plots come in, what lies below them moves away from the mouse.
+    for (const end = Date.now() + 60000; !(await page.getByRole("tooltip").getByText(text).isVisible()) && Date.now() < end;) {
+      await page.mouse.move(0, 0);
+      await element.hover();
+      await page.waitForTimeout(700);
+    }
+    return page.getByRole("tooltip").textContent();
   };
-  assert.equal(await titleOf(page.getByRole("button", { name: /^Max penetration \[/ }), "penetration"),
+  assert.equal(await told(page.getByRole("button", { name: /^Max penetration \[/ }), "penetration"),
     "max Δ: Largest radial penetration of the journal into the bore in the whole run; null without clearance [µm]");
   const metric = page.locator("label", { has: page.getByRole("combobox", { name: /^Metric/ }) });
-  await titleOf(metric, "steady window");
+  await told(metric, "steady window");
   await page.getByRole("combobox", { name: /^Metric/ }).selectOption("rms_slider_acceleration_m_s2");
-  assert.match(await titleOf(metric, "Root mean square"), /^Root mean square of the slider's acceleration .* \[m\/s²\]$/);
+  await page.mouse.move(0, 0);
+  await page.getByRole("tooltip").waitFor({ state: "hidden" });
+  assert.match(await told(metric, "Root mean square"), /^Root mean square of the slider's acceleration .* \[m\/s²\]$/);
   const [{ job_id: job }] = await resultsOf(await ask(`/v1/sweeps/${id}`));
   await page.goto(`${url}/#/jobs/${job}`);
-  assert.equal(await titleOf(page.getByRole("heading", { name: "Contact force" }), "normal forces"),
+  assert.equal(await told(page.getByRole("heading", { name: "Contact force" }).locator(".term"), "normal forces"),
     "Σ f_n: Sum of the radial normal forces on the journal; null without clearance [N]");
+  await picture(page, "definition");
+  await leave(page);
+});
+
+test("definitions are reached with the keyboard, and Escape closes them", async () => {
+  const { id } = await runSweep({ parameters: short, sweep: { clearance_mm: [0.1, 0.2] } });
+  const page = await visit(`#/sweeps/${id}`);
+  const tooltip = page.getByRole("tooltip");
+  const metric = page.getByRole("combobox", { name: "Metric" });
+  await metric.waitFor();
+  // With the Tab key from the element before it.
+  await page.evaluate(() => {
+    const all = [...document.querySelectorAll("main a[href], main button, main summary, main select")];
+    all[all.findIndex((each) => each.matches("[data-quantity] select")) - 1].focus();
+  });
+  for (let k = 0; k < 10 && !(await metric.evaluate((element) => element === document.activeElement)); k += 1) await page.keyboard.press("Tab");
+  await tooltip.getByText("steady window").waitFor();
+  const describedBy = () => metric.evaluate((element) => document.getElementById(element.getAttribute("aria-describedby"))?.textContent ?? "");
+  assert.equal(await describedBy(), await tooltip.textContent());
+  await expectAccessible(page);
+  await metric.selectOption("impact_count");
+  await tooltip.getByText("Number of onsets").waitFor();
+  await page.keyboard.press("Escape");
+  await tooltip.waitFor({ state: "hidden" });
+  assert.equal(await describedBy(), "");
+  const [{ job_id: job }] = await resultsOf(await ask(`/v1/sweeps/${id}`));
+  await page.goto(`${url}/#/jobs/${job}`);
+  const term = page.getByRole("region", { name: "Metrics" }).locator(".term").nth(1);
+  await page.getByRole("region", { name: "Metrics" }).locator(".term").first().focus();
+  await page.keyboard.press("Tab");
+  assert.ok(await term.evaluate((element) => element === document.activeElement));
+  await tooltip.waitFor();
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Escape");
+  await tooltip.waitFor({ state: "hidden" });
+  await leave(page);
+});
+
+test("definitions are reached with a finger", async () => {
+  const { id } = await runSweep({ parameters: short, sweep: { clearance_mm: [0.1, 0.2] } });
+  const [{ job_id: job }] = await resultsOf(await ask(`/v1/sweeps/${id}`));
+  const page = await visit(`#/jobs/${job}`, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const tooltip = page.getByRole("tooltip");
+  await page.getByRole("heading", { name: "Contact force" }).locator(".term").tap();
+  await tooltip.getByText("normal forces").waitFor();
+  const { x, width } = await tooltip.boundingBox();
+  assert.ok(x >= 0 && x + width <= 390, `from ${x}, ${width} wide`);
+  await picture(page, "definition_390");
+  await page.getByRole("heading", { level: 1 }).tap();
+  await tooltip.waitFor({ state: "hidden" });
+  // A heading of the table is sorted by the same tap, and made anew.
+  await page.goto(`${url}/#/sweeps/${id}`);
+  await page.getByRole("button", { name: /^Max penetration \[/ }).tap();
+  await tooltip.getByText("penetration").waitFor();
+  await expectNoSideways(page);
   await leave(page);
 });
 

@@ -104,10 +104,10 @@ test("the headlines tell the largest and the least value with their parameters, 
   assert.equal(await lines.first().getByRole("link").getAttribute("href"), "#/jobs/job_10_0.35_flexible");
   // What the number is stands in a tooltip, as in the choice of columns.
   await lines.first().locator("strong").hover();
-  await page.waitForFunction(() => document.querySelector(".headlines strong").title.includes("m/s²"));
+  await page.getByRole("tooltip").getByText("m/s²").waitFor();
   await page.getByText(/^Columns: /).click();
   await page.locator(".menu label").filter({ hasText: "Peak contact force" }).hover();
-  await page.waitForFunction(() => [...document.querySelectorAll(".menu label")].some(({ title }) => title.includes("[N]")));
+  await page.getByRole("tooltip").getByText("[N]").waitFor();
   await page.getByText(/^Columns: /).click();
   await page.getByRole("combobox", { name: /^Metric/ }).selectOption(force);
   assert.match(await lines.first().textContent(), /^Largest peak contact force: 10000 N, crank velocity 10 rad\/s/);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Definitions of metrics and channels as tooltips. The OpenAPI document, which has them, is fetched once one is needed.
+// Definitions of metrics and channels. The OpenAPI document, which has them, is fetched once one is needed.
 import { requestSchemas } from "/core/api.js";
-import { choice } from "/core/dom.js";
+import { choice, h } from "/core/dom.js";
 import { titleOf } from "/core/format.js";
 
 /** @typedef {"metrics" | "channels"} Kind */
@@ -45,6 +45,10 @@ export async function definitionOf(kind, name) {
 /** @param {Kind} kind  @param {string} name */
 export const defines = (kind, name) => ({ "data-kind": kind, "data-quantity": name });
 
+/// A name whose definition is shown when it is pointed at, touched or reached with the keyboard.
+/** @param {Kind} kind  @param {string} name  @param {string} text */
+export const term = (kind, name, text) => h("span", { class: "term", tabindex: 0, ...defines(kind, name) }, text);
+
 /// Select of metrics or channels that shows the definition of the chosen one.
 /**
  * @param {string} label
@@ -60,17 +64,4 @@ export function quantityChoice(label, kind, names, value, onchange) {
   });
   Object.assign(element.dataset, { kind, quantity: value });
   return element;
-}
-
-/// Fills in the tooltip of the element that defines a quantity.
-async function explain({ target }) {
-  const element = /** @type {HTMLElement | null} */ (target instanceof Element && target.closest("[data-quantity]"));
-  if (!element) return;
-  const { kind, quantity = "" } = element.dataset;
-  const text = await definitionOf(/** @type {Kind} */ (kind), quantity).catch(() => "");
-  if (element.dataset.quantity === quantity) element.title = text;
-}
-
-export function startDefinitions() {
-  for (const event of ["pointerover", "focusin", "change"]) document.addEventListener(event, explain);
 }

@@ -2,7 +2,7 @@
 // Tables of a job: metrics, losses, provenance, parameters.
 import { h } from "/core/dom.js";
 import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
-import { defines } from "/core/quantities.js";
+import { term } from "/core/quantities.js";
 import { variedInside } from "/run/described.js";
 import { labelsOf } from "/run/labels.js";
 
@@ -15,7 +15,7 @@ export function metricsCard(jobs) {
     h("th", { scope: "col" }, "Unit"));
   return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"),
     h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
-    names.map((name) => h("tr", {}, h("td", defines("metrics", name), nameOf(name)),
+    names.map((name) => h("tr", {}, h("td", {}, term("metrics", name, nameOf(name))),
       jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))),
       whyMissing(jobs));
 }
@@ -39,7 +39,7 @@ export function lossesCard({ metrics }) {
   const largest = Math.max(...losses.map(({ value }) => Math.abs(value ?? 0)), Number.MIN_VALUE);
   return h("div", {}, h("table", {}, h("caption", { class: "quiet small" }, "Losses over the whole run"),
     h("tbody", {}, losses.map(({ name, value }) =>
-      h("tr", {}, h("th", { scope: "row", ...defines("metrics", name) }, titleOf(name)),
+      h("tr", {}, h("th", { scope: "row" }, term("metrics", name, titleOf(name))),
     h("td", {}, h("progress", { value: Math.abs(value ?? 0) / largest, "aria-label": nameOf(name) })),
     h("td", { class: "number" }, number(value)))))),
     h("p", { class: "small" }, `Energy residual: ${number(metrics?.energy_residual, 2)} of the work turned over.`));

@@ -3,7 +3,7 @@
 import { h } from "/core/dom.js";
 import { saveCanvas } from "/core/download.js";
 import { nameOfChannel, unitOf } from "/core/format.js";
-import { defines } from "/core/quantities.js";
+import { term } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { labelsOf } from "/run/labels.js";
 import { peakLevel } from "/run/peaks.js";
@@ -26,7 +26,7 @@ export function plotCard(title, { traces, times, height, signal, note = "", clos
   timePlot(element, { traces, times, height, label: title, signal }).then((plot) => { made = plot; })
     .catch((error) => { element.textContent = error.message; });
   return h("section", { class: "card" },
-    h("div", { class: "head" }, h("h2", others.length === 0 ? defines("channels", channel) : {}, heading),
+    h("div", { class: "head" }, h("h2", {}, others.length === 0 ? term("channels", channel, heading) : heading),
     h("span", { class: "actions" }, tools,
       h("button", { onclick: () => made && saveCanvas(made.canvas(), `${title}.png`) }, "PNG"),
       close ? h("button", { onclick: close, "aria-label": `Remove ${title}` }, "✕") : null)), element, note && h("p",

@@ -3,7 +3,7 @@
 // replicates.
 import { h } from "/core/dom.js";
 import { nameOf, number, plural, unitOf } from "/core/format.js";
-import { defines } from "/core/quantities.js";
+import { term } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
 import { none, valueOf } from "/study/data.js";
 
@@ -34,7 +34,7 @@ function timeOf(row, metric) {
 function extremeSentence(word, row, all, { axes, view: { metric } }) {
   const setting = settingOf(row, axes);
   const equal = all.filter((each) => each[metric] === row[metric]).length;
-  return h("li", {}, `${word}: `, h("strong", defines("metrics", metric), withUnit(row[metric], metric)),
+  return h("li", {}, `${word}: `, h("strong", {}, term("metrics", metric, withUnit(row[metric], metric))),
     timeOf(row, metric),
     setting ? `, ${setting} (` : " (", linkTo(row), equal > 1
       ? `, the first of ${equal.toLocaleString("en")} with this value)` : ")");
