@@ -34,9 +34,10 @@ const linked = ["new", "searches", "wear", "optimisations", "fits", "measurement
 function markNavigation(kind) {
   for (const link of /** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll("header nav a"))) {
     const target = link.hash.slice(2);
-    if (link.hash !== "" && target === (linked.includes(kind) ? kind : "")) link.setAttribute("aria-current",
-      "page");
-    else link.removeAttribute("aria-current");
+    if (link.hash !== "" && target === (linked.includes(kind) ? kind : "")) {
+      link.setAttribute("aria-current", "page");
+      link.scrollIntoView({ block: "nearest", inline: "nearest" });  // a phone shows some of the links at once
+    } else link.removeAttribute("aria-current");
   }
 }
 

@@ -28,6 +28,44 @@ test("empty pages say how to begin, and their examples are ready to be sent", as
   await leave(page);
 });
 
+test("sweeps are found by the words of their badges, and stand on phones in cards of one height", async () => {
+  const { id: kept } = await runSweep({ name: "plain", parameters: short, sweep: { clearance_mm: [0.1, 0.2] } });
+  const { items: [sweep] } = await ask("/v1/sweeps");
+  const others = [["wear_a", "of wear", []], ["opt_a", "of an optimum", ["bench"]]].map(([study, name, tags], k) =>
+    ({ ...sweep, id: `swp_given_${k}`, name, tags, study_id: study, counts: { ...sweep.counts, succeeded: 0, failed: 2 }, state: "failed" }));
+  const page = await visit("#/help", { viewport: { width: 390, height: 844 } });
+  await page.route("**/v1/sweeps?**", (route) => route.fulfill({ json: { items: [sweep, ...others], next_cursor: "" } }));
+  await page.goto(`${url}/#/`);
+  const names = () => page.locator(".listing tbody .name a[title]:not(.badge)").allTextContents();
+  const search = page.getByRole("searchbox");
+  for (const [words, found] of [["wear", ["of wear"]], ["study", ["of wear"]], ["optimisation", ["of an optimum"]], ["bench", ["of an optimum"]]]) {
+    await search.fill(words);
+    await page.getByText("1 sweep, 0 under way").waitFor();
+    assert.deepEqual(await names(), found, words);
+  }
+  await search.fill("");
+  await page.getByText("3 sweeps, 0 under way").waitFor();
+  await page.locator(".peaks a").first().waitFor();
+  const heights = await page.locator(".listing tbody tr").evaluateAll((all) => all.map(({ offsetHeight }) => offsetHeight));
+  assert.ok(Math.max(...heights) - Math.min(...heights) <= 1, `${heights}`);
+  await picture(page, "lists_badges_390");
+  await fetch(`${url}/v1/sweeps/${kept}`, { method: "DELETE" });
+  await leave(page);
+});
+
+test("on a phone the header has two lines, and the link of the page is in sight", async () => {
+  const page = await visit("#/help", { viewport: { width: 390, height: 844 } });
+  await page.getByRole("heading", { name: "Help", level: 1 }).waitFor();
+  const { height } = await page.locator("header").boundingBox();
+  assert.ok(height < 90, `${height} pixels`);
+  const link = await page.getByRole("link", { name: "Help" }).boundingBox();
+  assert.ok(link.x >= 0 && link.x + link.width <= 390, `from ${link.x}`);
+  assert.equal(await page.getByRole("combobox", { name: "Theme" }).count(), 1);
+  await expectNoSideways(page);
+  await expectAccessible(page);
+  await leave(page);
+});
+
 test("sweeps have low rows, are sorted, and several are deleted together", async () => {
   for (const [k, name] of ["beta", "gamma", "alpha"].entries()) {
     await runSweep({ name, parameters: short, sweep: { clearance_mm: Array.from({ length: k + 1 }, (_, i) => 0.1 + i / 100) } });

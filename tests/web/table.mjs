@@ -73,6 +73,14 @@ test("many jobs: the name stands before the rows, and a chart is drawn once it i
   assert.equal(await scatter.locator("canvas").count(), 0);
   await scatter.scrollIntoViewIfNeeded();
   await scatter.locator("canvas").first().waitFor();
+  // So many points are small and clear, in a shape for each class of their colours.
+  const looks = await scatter.evaluate(async (element) => {
+    const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();
+    return getInstanceByDom(element).getModel().getSeries().map(({ option }) => [option.large, option.symbolSize, option.itemStyle.opacity, option.data.length]);
+  });
+  assert.equal(looks.length, 16);
+  assert.ok(looks.every(([large, size, opacity]) => large && size <= 3 && opacity < 0.5), `${looks}`);
+  assert.equal(looks.reduce((sum, [,,, count]) => sum + count, 0), 10000);
   // A selection in the table draws it anew when it is seen again.
   const rings = () => chartOf(page, 3).then(({ series }) => series.at(-1).length);
   await region(page).evaluate((element) => { element.scrollIntoView(); });

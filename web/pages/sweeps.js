@@ -9,7 +9,7 @@ import { ListOrder, Marked } from "/core/list_tools.js";
 import { follow, isUnderWay, settled } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { executorsPanel } from "/study/executors.js";
-import { sweepRow } from "/study/sweep_row.js";
+import { studyWords, sweepRow } from "/study/sweep_row.js";
 
 const pageSize = 25;
 const mostSearched = 1000;
@@ -96,7 +96,7 @@ class SweepList {
       { type: "search", value: this.search,
         oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
-      h("label", { class: "choice" }, h("span", {}, "Search (name, tag, notes, id, axis)"), search),
+      h("label", { class: "choice" }, h("span", {}, "Search (name, badge, notes, id, axis)"), search),
       choice("State", [["", "any"], ...states], this.state,
         (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       this.order.element, h("a", { class: "button main", href: "#/new" }, "New sweep"));
@@ -162,7 +162,7 @@ class SweepList {
   /** @param {Api.ListedSweep} sweep */
   matches(sweep) {
     const { name, id, tags = [], notes = "", axes } = sweep;
-    const text = [name, id, ...tags, notes, ...axes, ...axes.map(nameOf)].join(" ").toLowerCase();
+    const text = [name, id, ...tags, studyWords(sweep), notes, ...axes, ...axes.map(nameOf)].join(" ").toLowerCase();
     return this.search.toLowerCase().split(/\s+/).every((word) => text.includes(word));
   }
 

@@ -21,7 +21,7 @@ function settingOf(row, axes) {
 }
 
 /** @param {Api.Row} row */
-const linkTo = ({ job_id: id }) => h("a", { href: routeTo("jobs", id) }, `job …${id.slice(-5)}`);
+const linkTo = ({ job_id: id }) => h("a", { class: "unbroken", href: routeTo("jobs", id) }, `job …${id.slice(-5)}`);
 
 /// Time of a value, where the job tells one: of peak_x_m_s2 in peak_x_time_s.
 /** @param {Api.Row} row  @param {string} metric */

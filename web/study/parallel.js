@@ -8,6 +8,7 @@ import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
 
 const [left, right] = [60, 90];
+const many = 2000;  // lines, which are drawn so thin that their density is seen
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
 /** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
@@ -90,9 +91,8 @@ function dimensionOf({ name, values, isNumeric }, dim, room) {
       width: Math.max(36, Math.min(dim === 0 ? 2 * left - 8 : 150, room - 8)),
       overflow: "break" },
     axisLine: { lineStyle: { color: colour("quiet") } },
-    // On ground of their own, for lines run below them.
-    axisLabel: { color: colour("text"), backgroundColor: colour("card"), padding: isNumeric ? [1, 3] : [3, 5],
-      borderRadius: 2, formatter: (value) => (isNumeric ? number(value) : exact(value)),
+    // With a rim in the colour of the ground, for lines run below them.
+    axisLabel: { color: colour("text"), textBorderColor: colour("card"), textBorderWidth: 4, formatter: (value) => (isNumeric ? number(value) : exact(value)),
       ...(isNumeric ? labelsOfNumbers(values) : {}) },
     axisTick: isNumeric && isConstant(values) ? { customValues: numbersOf(values).slice(0, 1) } : {},
     ...(isNumeric ? roomy : { type: "category", data: values.map(String) }) };
@@ -111,7 +111,7 @@ function planOf(sweep, width) {
     visualMap: { show: false, ...ends(extremesOf(peaks)),
       dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000,
-      lineStyle: { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
+      lineStyle: shown.length > many ? { width: 1, opacity: 0.15 } : { width: 1.5, opacity: 0.75 }, inactiveOpacity: 0.06,
       data: shown.map((row) => lineOf(row, columns, view.metric, selection)) }],
   } };
 }

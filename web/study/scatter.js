@@ -3,15 +3,17 @@
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { nameOf, number, pointOf, titleOf } from "/core/format.js";
-import { lineColour, linePalette } from "/core/theme.js";
+import { colour, lineColour, linePalette, paletteColour } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
+import { scaleOf } from "/study/curves.js";
 import { hasScale, none, valueOf, valuesOf } from "/study/data.js";
 import { legendOf } from "/study/legend.js";
 import { extremesOf, fittedAxis, spansDecades } from "/study/span.js";
 
 const left = 75;
 const fewTicks = 12;
-const many = 2000;  // points, which are drawn smaller
+const many = 2000;  // points, which are drawn so small and clear that their density is seen
+const classes = 16;  // of the colours of so many points
 
 /** @param {HTMLElement} element  @param {SweepPage} sweep  @param {AbortSignal} signal */
 export function scatterChart(element, sweep, signal) {
@@ -44,13 +46,12 @@ function optionOf(sweep, width) {
   if (shown.length === 0) return nothingYet("", "No job has both values.");
   const isScale = c !== "" && hasScale(rows, c);
   const point = (row) => [xAxis.at(row), yAxis.at(row), isScale ? row[c] ?? "-" : 0, row.job_id];
-  const groups = c === "" || isScale ? [{ name: nameOf(y), rows: shown }]
-    : valuesOf(rows, c).map((value) => ({ name: pointOf(c, value),
-      rows: shown.filter((row) => valueOf(row, c) === value) }));
+  const isDense = shown.length > many;
+  const groups = groupsOf(shown, { c, isScale, isDense, numbers: isScale ? numbersOf(rows, c) : [], name: nameOf(y) });
   const chosen = shown.filter((row) => selection.has(row.job_id));
-  const numbers = isScale ? valuesOf(rows, c).filter((value) => typeof value === "number") : [];
+  const numbers = isScale ? numbersOf(rows, c) : [];
   const legend = legendOf(groups.map(({ name }) => name), width);
-  const hasLegend = groups.length > 1;
+  const hasLegend = !isScale && groups.length > 1;
   const byId = new Map(shown.map((row) => [row.job_id, row]));
   return {
     grid: { left, right: 25, top: 16 + (isScale ? colourBarHeight : hasLegend ? legend.height : 0),
@@ -59,18 +60,45 @@ function optionOf(sweep, width) {
       ? colourBar(c, numbers, ticksOf(numbers), width, left) : [],
     tooltip: { formatter: ({ data }) => textOf(byId.get(data[3]), [...new Set([...axes, x, y])]) },
     // Values decades apart would all lie at the end of the palette: the chart has their logarithms.
-    ...(isScale ? { visualMap: { show: false, ...mapOf(numbers), dimension: 2, seriesIndex: 0,
+    ...(isScale && !isDense ? { visualMap: { show: false, ...mapOf(numbers), dimension: 2, seriesIndex: 0,
       inRange: { color: linePalette() } } } : {}),
     xAxis: { ...xAxis.option, name: titleOf(x), nameLocation: "middle", nameGap: 28 },
     yAxis: { ...yAxis.option, name: titleOf(y), nameLocation: "middle", nameGap: 55 },
-    series: [...groups.map((group, index) => ({ type: "scatter", name: group.name, color: lineColour(index),
-      symbolSize: shown.length > many ? 4 : 7, itemStyle: { opacity: 0.8 },
-        data: group.rows.map(isScale && spansDecades(numbers)
+    series: [...groups.map((group, index) => ({ type: "scatter", name: group.name,
+      color: group.colour ?? lineColour(index),
+      ...(isDense ? { large: true, largeThreshold: 0, symbolSize: 3, itemStyle: { opacity: 0.4 } }
+        : { symbolSize: 7, itemStyle: { opacity: 0.8 } }),
+      data: group.rows.map(isScale && !isDense && spansDecades(numbers)
         ? (row) => point(row).with(2, Math.log10(row[c])) : point) })),
     { type: "scatter", name: "selected", silent: true, symbolSize: 15, z: 5, data: chosen.map(point),
       itemStyle: { color: "transparent", borderColor: "#e6007a",
         borderWidth: 3 } }].filter(({ data }) => data.length > 0),
   };
+}
+
+/** @param {Api.Row[]} rows  @param {string} column */
+const numbersOf = (rows, column) => valuesOf(rows, column).filter((value) => typeof value === "number");
+
+/// Points of one colour or scale. Of many points on a scale each class of its colours is a group: one shape for all
+/// points of a group is drawn many times faster than a shape for each point.
+/** @param {Api.Row[]} shown */
+function groupsOf(shown, { c, isScale, isDense, numbers, name }) {
+  if (c === "" || (isScale && !isDense)) return [{ name, rows: shown }];
+  if (!isScale) {
+    return valuesOf(shown, c).map((value) => ({ name: pointOf(c, value),
+      rows: shown.filter((row) => valueOf(row, c) === value) }));
+  }
+  const scale = scaleOf(numbers);
+  const classOf = (row) => (typeof row[c] === "number" ? Math.min(classes - 1, Math.floor(classes * scale(row[c]))) : -1);
+  /** @type {Map<number, Api.Row[]>} */
+  const byClass = new Map();
+  for (const row of shown) {
+    const ofClass = byClass.get(classOf(row)) ?? [];
+    byClass.set(classOf(row), ofClass);
+    ofClass.push(row);
+  }
+  return [...byClass].map(([k, rows]) => ({ name, rows,
+    colour: k < 0 ? colour("quiet") : paletteColour((k + 0.5) / classes) }));
 }
 
 /// Numbers with a tick on the colour bar.

@@ -21,10 +21,18 @@ const studyKinds = { sch: ["searches", "search"], fit: ["fits", "fit"],
 /// An id in one line: "swp_…f9mqab6".
 const shortOf = (id) => `${id.slice(0, id.indexOf("_") + 1)}…${id.slice(-shownOfId)}`;
 
+/// Page and name of the kind of a study.
+/** @param {string} id  @returns {string[]} */
+const kindOf = (id) => studyKinds[id.slice(0, id.indexOf("_"))] ?? ["wear", "wear study"];
+
+/// Words of the badge of the study that a sweep belongs to; empty if there is none.
+/** @param {{ study_id?: string | null }} sweep */
+export const studyWords = ({ study_id: id }) => (id ? kindOf(id)[1] : "");
+
 /// Link to the study that a sweep belongs to. @param {{ study_id: string | null }} sweep
 export function studyBadge({ study_id: id }) {
   if (!id) return "";
-  const [page, text] = studyKinds[id.slice(0, id.indexOf("_"))] ?? ["wear", "wear study"];
+  const [page, text] = kindOf(id);
   return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);
 }
 
