@@ -162,6 +162,11 @@ test("six hundred jobs are read on a phone, in the dark and on a wide screen", a
     await page.getByLabel("Theme").selectOption("dark");
     await expectNoSideways(page);
     await expectAccessible(page);
+    // The names of axes stand whole, and no select sticks out of its card.
+    const gap = await page.locator(".chart").nth(2).evaluate((element, count) => (element.clientWidth - 150) / (count - 1), (await drawn(page, 2)).parallel.length);
+    assert.ok(gap >= 83, `${gap} pixels from axis to axis`);
+    const outside = await page.locator(".card select").evaluateAll((all) => all.filter((each) => each.getBoundingClientRect().right > each.closest(".card").getBoundingClientRect().right).length);
+    assert.equal(outside, 0);
     await picture(page, `six_hundred_${width}`);
     for (const menu of [/^Curves: /, /^Columns: /]) {
       await page.getByText(menu).click();

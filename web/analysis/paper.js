@@ -24,6 +24,8 @@ export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(a
 export async function paperCard(element, { sweep }, signal) {
   const rows = await findAnalysis(sweep.id, "paper", {}, signal);
   const [numbered, others] = split(rows);
+  // Of other velocities a sweep may have many, and jobs for few of their ratios.
+  const told = others.filter(({ settings }) => settings > 0);
   const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }),
     download: `${sweep.name || sweep.id} paper.csv` };
   const isSingle = singleRuns(sweep) !== "";
@@ -31,9 +33,12 @@ export async function paperCard(element, { sweep }, signal) {
     ? [h("p", { role: "note" }, "One run each: replicates would show which ratios scatter.")] : [];
   element.replaceChildren(...note, statements("The paper's statements", numbered,
     isSingle, [["No.", (row) => row.number, "of"]]),
-    ...(others.length === 0 ? []
+    ...(told.length === 0 ? []
       : [h("h3", { class: "quiet small" }, "Other velocities, on which the paper makes no statement"),
-      statements("Other velocities", others, isSingle)]),
+      statements("Other velocities", told, isSingle)]),
+    told.length === others.length ? "" : h("p", { class: "quiet small" },
+      `${plural(others.length - told.length, "ratio")} at other velocities ${others.length - told.length === 1
+        ? "needs" : "need"} jobs that the sweep does not have.`),
     ...indexParts(numbered), h("p", { class: "actions" }, h("a", csv, "CSV")));
   return null;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parallel coordinates: a line for each job over the axes and some metrics. Brushing an axis selects jobs.
 import { makeChart, nothingYet } from "/core/charts.js";
+import { h } from "/core/dom.js";
 import { exact, number, plural, titleOf } from "/core/format.js";
 import { colour, linePalette } from "/core/theme.js";
 import { none, onceFor, valueOf, valuesOf } from "/study/data.js";
@@ -8,6 +9,8 @@ import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
 
 const [left, right] = [60, 90];
+const leastGap = 84;  // pixels from axis to axis
+const [widthOfLetter, lineHeight] = [6.2, 13];  // pixels of the names of axes, about
 const many = 2000;  // lines, which are drawn so thin that their density is seen
 const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceleration_m_s2"];
 
@@ -16,7 +19,12 @@ export function parallelChart(element, sweep, signal) {
   /** @type {Api.Row[]} */
   let shown = [];
   let brushing = false;
+  const around = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Axes" });
+  element.replaceWith(around);
+  around.append(element);
   const made = makeChart(element, () => {
+    // On a phone the axes are pushed along: closer to each other they would have no room for their names.
+    element.style.minWidth = `${left + right + leastGap * (layOut(sweep).columns.length - 1)}px`;
     const plan = planOf(sweep, element.clientWidth);
     shown = plan.shown;
     return plan.option;
@@ -84,12 +92,24 @@ const isConstant = (values) => numbersOf(values).length === 1;
 const labelsOfNumbers = (values) => (isConstant(values) ? { customValues: numbersOf(values) }
   : { showMinLabel: false, showMaxLabel: false });
 
-/// An axis, with its name above or below it in turn. @param room  pixels from one axis to the next but one
-function dimensionOf({ name, values, isNumeric }, dim, room) {
-  return { dim, name: titleOf(name), nameLocation: dim % 2 === 0 ? "end" : "start",
-    nameTextStyle: { color: colour("text"), fontSize: 11,
-      width: Math.max(36, Math.min(dim === 0 ? 2 * left - 8 : 150, room - 8)),
-      overflow: "break" },
+/// Title of a column in lines as wide as the room, in pixels. ECharts cuts off names wider than the gap of the axes.
+/** @param {string} name  @param {number} room */
+function titleLines(name, room) {
+  const most = Math.floor(room / widthOfLetter);
+  /** @type {string[]} */
+  const lines = [];
+  for (const word of titleOf(name).split(" ")) {
+    const longer = `${lines.at(-1)} ${word}`;
+    if (lines.length > 0 && longer.length <= most) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+/// An axis, with its name above or below it in turn.
+function dimensionOf({ values, isNumeric }, dim, lines) {
+  return { dim, name: lines.join("\n"), nameLocation: dim % 2 === 0 ? "end" : "start",
+    nameTextStyle: { color: colour("text"), fontSize: 11, lineHeight },
     axisLine: { lineStyle: { color: colour("quiet") } },
     // With a rim in the colour of the ground, for lines run below them.
     axisLabel: { color: colour("text"), textBorderColor: colour("card"), textBorderWidth: 4, formatter: (value) => (isNumeric ? number(value) : exact(value)),
@@ -104,10 +124,12 @@ function planOf(sweep, width) {
   const { columns, shown } = layOut(sweep);
   if (shown.length === 0) return { shown, option: nothingYet(whyEmpty(sweep)) };
   const peaks = shown.map((row) => row[view.metric]).filter((value) => typeof value === "number");
+  const gap = (width - left - right) / Math.max(1, columns.length - 1);
+  const names = columns.map(({ name }, dim) => titleLines(name, Math.min(gap, dim === 0 ? 2 * left : 2 * right)));
+  const most = lineHeight * Math.max(...names.map(({ length }) => length));
   return { shown, option: {
-    parallel: { left, right, top: 50, bottom: 55, parallelAxisDefault: axisDefaults() },
-    parallelAxis: columns.map((column, dim) => dimensionOf(column, dim,
-      (2 * (width - left - right)) / Math.max(1, columns.length - 1))),
+    parallel: { left, right, top: 24 + most, bottom: 29 + most, parallelAxisDefault: axisDefaults() },
+    parallelAxis: columns.map((column, dim) => dimensionOf(column, dim, names[dim])),
     visualMap: { show: false, ...ends(extremesOf(peaks)),
       dimension: columns.findIndex(({ name }) => name === view.metric), inRange: { color: linePalette() } },
     series: [{ type: "parallel", smooth: false, progressive: 400, progressiveThreshold: 1000,
