@@ -33,11 +33,20 @@ paste -d ' ' <(awk '{ print $2 }' shares) reported |
   fail "$report has other shares: $(paste -sd ' ' reported)"
 
 echo "the first settings again"
-jq '.design.count = 6' "$request" >few.json
-expect_code 0 "$rpsup" sweep few.json --db few.db --results few.results.json
-jq -r '[.[].peak_slider_acceleration_m_s2] as $p | range(6) as $i | [$p[24 + $i] / $p[12 + $i], $p[48 + $i] / $p[36 + $i]] | @csv' few.results.json >again
-# A chaotic setting may part on another processor: of twelve growths nine are to be the same.
-same=$(paste -d, <(awk -F, '$1 == "continuum" && $2 == 1 && $3 <= 6 { print $4 "," $6 }' "$rows") again |
-  awk -F, '{ for (i = 1; i <= 2; ++i) { d = $i / $(i + 2) - 1; if (d < 0) d = -d; if (d < 0.01) n++ } } END { print n + 0 }')
-[ "$same" -ge 9 ] || fail "only $same of twelve growths are those of $rows"
-echo "$settings settings, $same of twelve growths found again"
+# find_growths TOLERANCE FILE: two growths of each setting
+find_growths() {
+  jq --argjson tolerance "$1" '.design.count = 6 | .parameters += {relative_tolerance: $tolerance, absolute_tolerance: $tolerance}' "$request" >few.json
+  expect_code 0 "$rpsup" sweep few.json --db few.db --results few.results.json
+  jq -r '[.[].peak_slider_acceleration_m_s2] as $p | range(6) as $i | [$p[24 + $i] / $p[12 + $i], $p[48 + $i] / $p[36 + $i]] | @csv' few.results.json >"$2"
+}
+find_growths "$(jq .parameters.relative_tolerance "$request")" again
+find_growths 1e-6 tight
+# Growths of chaotic settings depend on the tolerance, and on the processor. The others, seven of twelve or more, are those of the rows; one
+# chaotic one may be among them by chance.
+read -r settled same < <(paste -d, again tight <(awk -F, '$1 == "continuum" && $2 == 1 && $3 <= 6 { print $4 "," $6 }' "$rows") | awk -F, '
+  function is_near(a, b) { return a / b > 0.99 && a / b < 1.01 }
+  { for (i = 1; i <= 2; ++i) if (is_near($i, $(i + 2))) { ++settled; same += is_near($i, $(i + 4)) } }
+  END { print settled + 0, same + 0 }')
+[ "$settled" -ge 7 ] && [ "$same" -ge $((settled - 1)) ] ||
+  fail "of twelve growths $settled do not depend on the tolerance, and $same of these are those of $rows"
+echo "$settings settings, $same of $settled growths that do not depend on the tolerance found again"
