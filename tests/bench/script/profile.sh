@@ -34,12 +34,13 @@ fi
 for each in "${cases[@]}"; do
   name=${each##*/}
   profile "$each" 3>"$scratch/time" | awk -v name="${name%.json}" '
-    # The first pattern that fits a function names its phase. Contact laws are inlined into evaluations but for those of elements.
+    # The first pattern that fits a function names its phase. Contact laws are inlined into evaluations but for those of elements. Runs that
+    # are solved, not integrated, evaluate constraints and inverse dynamics.
     /UnstableMode|Eigen::.*(Schur|Hessenberg|EigenSolver|ouseholder)/ {sums["stability checks"] += $1; next}
     /::factor/ {sums["factorisation"] += $1; next}
     /::solve|NewtonMatrix|RecursiveNewton|TreeRecursion|ContactUpdate/ && !/MotionSystem|ConstraintSolver|LoopClosure/ {sums["solutions"] += $1; next}
     /[lL]inearis|OperatingPoint|Jacobian|SeedSchedule|solve_pack|DualOf|Tangent/ {sums["Jacobian"] += $1; next}
-    /CompiledKernel|add_elements|ForwardDynamics|ConstraintSolver|solve_bodies|acos|atan2/ {sums["evaluation"] += $1; next}
+    /CompiledKernel|add_elements|ForwardDynamics|Constraint|InverseDynamics|calc_frame|solve_bodies|acos|atan2/ {sums["evaluation"] += $1; next}
     /calc_driven_motion|sincos|move_drives/ {sums["drives"] += $1; next}
     /RunMetrics|RunChannels|RunObserver|RpsupObserver|SlidingWork|calc_ring_contact|std::_Function_handler|energy|potential|kinetic|interpolate/ {sums["observers, samples"] += $1; next}
     /Radau5|Rodas5|Dopri5|Integration|Tolerance|combine_stages|StepControl|pow_fma|MotionSystem|StepPoint|KinematicRun|LoopClosure/ {sums["integrator"] += $1; next}
