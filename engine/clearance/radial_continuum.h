@@ -23,8 +23,8 @@ class RadialContinuum {
     return positions_[static_cast<std::size_t>(ring)];
   }  ///< along the journal's axis, [m]
   [[nodiscard]] const double* ring_positions() const { return positions_.data(); }  ///< [m]
-  /// Of the rings, 0. Those beyond them stand back so far that they never touch. Latches, positions and
-  /// setback may be read four at a time, the last ones beyond the rings. [m]
+  /// Setback of each ring, 0; of places beyond the last ring so large that they never touch. Latches,
+  /// positions and setbacks may be read four at a time, the last ones beyond the rings. [m]
   [[nodiscard]] const double* setback() const { return setback_.data(); }
   [[nodiscard]] double ring_stiffness() const {
     return ring_stiffness_;

@@ -26,8 +26,8 @@ RPSUP_INLINE void add_lane(const JointLoad<LaneBlock<count>>& rings, int lane, J
   load.elastic_energy += rings.elastic_energy[lane];
 }
 
-/// What the rings from the i-th on, side by side, do on a round bore, by Hertz's law: to the bit what
-/// add_ring() does with one after the other, but their roots and quotients take no longer than those of one.
+/// Loads of the rings from the i-th on, side by side, on a round bore, by Hertz's law: to the bit those of
+/// add_ring() one after the other, but roots and quotients of all take no longer than those of one.
 /// A ring that does not press adds zeros. Hertz's law holds for every penetration.
 /// @tparam count  of lanes; rings that there are not stand back from the bore
 template <int count>

@@ -21,9 +21,9 @@ namespace engine {
 /// dopri5 takes half the time.
 [[nodiscard]] Integrator choose_integrator(const Mechanism& mechanism, Integrator requested);
 
-/// How radau5 follows the mechanism. An impact sets off the next ones: with clearance an error counts more.
-/// Little damps the journal on its bore: an error that the iterations leave excites it, above all without the
-/// friction of slow bristles.
+/// Settings of radau5 for the mechanism. An impact sets off the next ones: with clearance an error counts
+/// more. Little damps the journal on its bore: an error that the iterations leave excites it, above all
+/// without the friction of slow bristles.
 [[nodiscard]] Radau5Settings choose_radau5_settings(const Mechanism& mechanism);
 
 /// Longest step of an error-controlled integrator, [s]. With radau5 and clearance it is shorter where

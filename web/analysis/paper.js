@@ -24,7 +24,7 @@ export const bearsOnPaper = (axes) => axesNeeded.every((axis) => axes.includes(a
 export async function paperCard(element, { sweep }, signal) {
   const rows = await findAnalysis(sweep.id, "paper", {}, signal);
   const [numbered, others] = split(rows);
-  // Of other velocities a sweep may have many, and jobs for few of their ratios.
+  // Other velocities may be many, with jobs for few of their ratios.
   const told = others.filter(({ settings }) => settings > 0);
   const csv = { class: "button", href: analysisUrl(sweep.id, "paper", { format: "csv" }),
     download: `${sweep.name || sweep.id} paper.csv` };

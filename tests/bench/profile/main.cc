@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What the cases differ in from the default: 0.25 mm, 10 rad/s.
+/// Parameters of each case that differ from the default (0.25 mm, 10 rad/s).
 const std::map<std::string_view, json>& cases() {
   static const std::map<std::string_view, json> all{
       {"rigid", {{"duration_s", 4}}},

@@ -218,7 +218,7 @@ TEST(RadialElements, BristlesFollowTheContactAroundTheJournal) {
   EXPECT_LT(most, 45 * 4.75e-6);
 }
 
-// Of contacts that begin and end, only single elements of a lasting contact and points of faces leave the equations of motion nearly as they were.
+// Single elements of a lasting contact, and points of faces, leave the equations of motion nearly as they were. No other contact does.
 TEST(ClearanceJoint, TellsSmallChangesFromAbruptOnes) {
   ClearanceParameters parameters = joint_of_elements(360);
   parameters.c_a = 10e-6;
