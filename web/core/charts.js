@@ -16,6 +16,33 @@ export function loadCharts() {
   return library;
 }
 
+let warm = null;
+
+/// Loads ECharts and draws something small that nobody sees, once. A browser compiles code at its first use: done before
+/// the data are there, this shortens the first charts by a tenth of a second.
+export function warmUpCharts() {
+  warm ??= loadCharts().then(drawUnseen).catch((error) => {
+    warm = null;
+    throw error;
+  });
+  return warm;
+}
+
+function drawUnseen(echarts) {
+  const chart = echarts.init(h("div"), null, { width: 300, height: 200 });
+  const values = Array.from({ length: 30 }, (_, place) => [place % 6, Math.floor(place / 6), place]);
+  chart.setOption(inPageColours({
+    legend: {}, tooltip: {}, title: { text: "-" }, grid: [{}, {}],
+    xAxis: [{ name: "-" }, { gridIndex: 1, type: "category", data: [..."012345"] }],
+    yAxis: [{ name: "-" }, { gridIndex: 1, type: "category", data: [..."01234"] }],
+    visualMap: { min: 0, max: 30, calculable: true, dimension: 2, seriesIndex: 1, inRange: { color: ["#000", "#fff"] } },
+    series: [{ type: "line", name: "-", data: values.slice(0, 6) },
+      { type: "heatmap", xAxisIndex: 1, yAxisIndex: 1, data: values }],
+  }));
+  chart.getZr().flush();
+  chart.dispose();
+}
+
 /// The parts of an option that all charts share.
 function inPageColours(option) {
   const text = { color: colour("text") };
@@ -57,10 +84,16 @@ export async function makeChart(element, makeOption, label, signal) {
   const chart = echarts.init(element);
   element.setAttribute("role", "img");
   element.setAttribute("aria-label", label);
-  const draw = () => {
-    chart.setOption(inPageColours(makeOption() ?? nothingYet()), { notMerge: true });
+  // A chart of its element's size is not drawn twice.
+  const fit = () => {
+    if (chart.getWidth() !== element.clientWidth || chart.getHeight() !== element.clientHeight) chart.resize();
   };
-  const sizes = new ResizeObserver(() => chart.resize());
+  const draw = () => {
+    const option = inPageColours(makeOption() ?? nothingYet());
+    fit();
+    chart.setOption(option, { notMerge: true });
+  };
+  const sizes = new ResizeObserver(fit);
   sizes.observe(element);
   onColours(draw, signal);
   signal.addEventListener("abort", () => {

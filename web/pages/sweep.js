@@ -2,7 +2,7 @@
 // One sweep: its metrics over its axes, in parts that share what is selected.
 import { cancelSweep, deleteSweep, findResults, findSweep, parameterSchema, reportUrl, resultsUrl,
   retrySweep } from "/core/api.js";
-import { loadCharts, saveButtons } from "/core/charts.js";
+import { saveButtons, warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
@@ -19,7 +19,7 @@ import { drawHeadlines } from "/study/headlines.js";
 import { heatMap } from "/study/heat_map.js";
 import { linesChart } from "/study/lines.js";
 import { logBoxes } from "/study/log_axes.js";
-import { parallelChart, parallelNote } from "/study/parallel.js";
+import { parallelChart } from "/study/parallel.js";
 import { scatterChart, scatterChoice } from "/study/scatter.js";
 import { SeenCharts } from "/study/seen_charts.js";
 import { Selection } from "/study/selection.js";
@@ -35,7 +35,7 @@ const tell = (text) => text && notify(text, "trouble");
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
-  loadCharts().catch(() => {});  // told where a chart would be
+  warmUpCharts().catch(() => {});  // told where a chart would be
   // Without the schema only a sentence on missing values knows less.
   const schemaIfAny = parameterSchema().catch(() => ({ properties: {} }));
   const given = Promise.all([findResults(id, {}, signal), schemaIfAny]);
@@ -249,8 +249,6 @@ export class SweepPage {
     this.logs.draw();
     this.curves.draw();
     this.scatterChoice.draw();
-    this.help.textContent = "Drag along an axis to select jobs; click the axis to clear its selection. "
-      + parallelNote(this);
   }
 
   changed() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of sweeps, up to date by itself.
 import { addressOf, cancelSweep, deleteSweep, findSweep, listExecutors, listSweeps, retrySweep } from "/core/api.js";
-import { loadCharts } from "/core/charts.js";
+import { warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
@@ -41,7 +41,7 @@ export async function show(main, { query, signal }) {
   await view.refresh();
   view.keepAsking();
   // The next view needs them.
-  requestIdleCallback(() => Promise.all([loadCharts(), import("/pages/sweep.js")]).catch(() => {}));
+  requestIdleCallback(() => Promise.all([warmUpCharts(), import("/pages/sweep.js")]).catch(() => {}));
 }
 
 class SweepList {

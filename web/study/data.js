@@ -100,12 +100,18 @@ export function valueOf(row, axis) {
 /// among the jobs
 /** @param {Api.Row[]} rows  @param {string[]} keys  @param {string} metric  @returns {Group[]} */
 export function groupBy(rows, keys, metric) {
-  const groups = new Map();
+  /** @type {(Group & { sum: number })[]} */
+  const groups = [];
+  const tree = new Map();  // by the value of each key in turn; in the leaves the groups
   for (const row of rows) {
     const values = keys.map((key) => valueOf(row, key));
-    const name = JSON.stringify(values);
-    const group = groups.get(name) ?? { values, jobs: [], count: 0, sum: 0, min: Infinity, max: -Infinity };
-    groups.set(name, group);
+    const leaf = values.reduce((node, value) => childOf(node, value), tree);
+    let group = leaf.get(leafName);
+    if (!group) {
+      group = { values, jobs: [], count: 0, sum: 0, min: Infinity, max: -Infinity, mean: null };
+      leaf.set(leafName, group);
+      groups.push(group);
+    }
     group.jobs.push(row.job_id);
     const value = row[metric];
     if (typeof value !== "number") continue;
@@ -114,7 +120,17 @@ export function groupBy(rows, keys, metric) {
     group.min = Math.min(group.min, value);
     group.max = Math.max(group.max, value);
   }
-  return [...groups.values()].map((group) => ({ ...group, mean: group.count > 0 ? group.sum / group.count : null }));
+  for (const group of groups) if (group.count > 0) group.mean = group.sum / group.count;
+  return groups;
+}
+
+const leafName = Symbol("group");
+
+/** @param {Map<any, any>} node  @param {string | number} value  @returns {Map<any, any>} */
+function childOf(node, value) {
+  let child = node.get(value);
+  if (!child) node.set(value, child = new Map());
+  return child;
 }
 
 /// The axes that a chart does not draw, so that what differs in them lies together in its points; replicates, too.

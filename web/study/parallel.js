@@ -27,6 +27,8 @@ export function parallelChart(element, sweep, signal) {
     element.style.minWidth = `${left + right + leastGap * (layOut(sweep).columns.length - 1)}px`;
     const plan = planOf(sweep, element.clientWidth);
     shown = plan.shown;
+    sweep.help.textContent = "Drag along an axis to select jobs; click the axis to clear its selection. "
+      + noteOf(layOut(sweep));
     return plan.option;
   }, "Parallel coordinates of all jobs; the table below has the same numbers", signal);
   made.then(({ chart }) => chart.on("axisareaselected", () => {
@@ -73,9 +75,8 @@ function arrange({ rows, axes, metrics, view }) {
 }
 
 /// Note on jobs that the lines do not show; empty if they show all.
-/** @param {SweepPage} sweep */
-export function parallelNote(sweep) {
-  const { leftOut, short } = layOut(sweep);
+/** @param {{ leftOut: number, short: number }} counts */
+function noteOf({ leftOut, short }) {
   return [short > 0 && `${plural(short, "line")} ${short === 1 ? "ends" : "end"} early, where the job has no further `
     + `values.`,
     leftOut > 0 && `${plural(leftOut, "job")} with a gap between values ${leftOut === 1 ? "is" : "are"} left `
