@@ -61,6 +61,7 @@ std::string joined_rows(const ResultTable& table, const char* before_first, cons
   const auto keys = quoted_keys(table.columns);
   std::string text;
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    if (r == 1) text.reserve(table.rows.size() * (text.size() + text.size() / 8));
     text += r == 0 ? before_first : before;
     text += '{';
     for (std::size_t c = 0; c < keys.size(); ++c) {

@@ -94,7 +94,8 @@ Response get_trajectory(const RequestContext& context) {
 
 Response get_parameters(const RequestContext& context) {
   Query(context.request, {}).check();
-  return json_response(200, to_text(jobs::parameter_schema()));
+  static const std::string text = to_text(jobs::parameter_schema());
+  return json_response(200, text);
 }
 
 }  // namespace server
