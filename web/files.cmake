@@ -96,7 +96,6 @@ set(page_files
   run/fingers.js
   run/ideal.js
   run/labels.js
-  run/levels.js
   run/measured.js
   run/measurement_picker.js
   run/orbit.js

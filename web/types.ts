@@ -71,8 +71,6 @@ type Chart = Awaited<ReturnType<typeof import("/core/charts.js").makeChart>>;
 /** A curve over time, of one or two channels at its edges. */
 type Trace = {
   job: string; channel: string; envelope?: string[]; name: string; colour: () => string; dash?: number[];
-  /** Peak of the metrics, a magnitude. */
-  level?: number;
   measured?: MeasuredCurve;
 };
 /** Curve of a measurement, whose id stands in the place of the job's: factor * x(t - shift) + offset. */

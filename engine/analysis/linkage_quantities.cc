@@ -97,11 +97,27 @@ void LinkageQuantities::add_metric(QuantityInfo info, Result result) {
   results_.push_back(std::move(result));
 }
 
-void LinkageQuantities::add_load(std::string key, std::string help, double scale, Reading read) {
+std::size_t LinkageQuantities::add_load(std::string key, std::string help, double scale, Reading read) {
   const std::size_t load = measured_.loads.size();
   measured_.loads.push_back(std::move(read));
   add_metric({.key = std::move(key), .help = std::move(help)},
              [=](const RunMetrics& metrics, const auto&) { return scale * metrics.largest_load(load); });
+  return load;
+}
+
+void LinkageQuantities::add_sampled_load(const std::string& stem, const std::string& unit, std::string help,
+                                         std::string peak_help, const Reading& read) {
+  add_channel(stem + unit, std::move(help), read);
+  const std::size_t load = add_load("peak_" + stem + unit, std::move(peak_help), 1.0, read);
+  add_extremes(stem, unit, read, Channel::Kind::kLeastLoad, load);
+}
+
+void LinkageQuantities::add_extremes(const std::string& stem, const std::string& unit, const Reading& read,
+                                     Channel::Kind kind, std::size_t index) {
+  for (Channel& channel : extreme_channels(stem, unit, read, kind, index)) {
+    channels_.push_back(std::move(channel));
+    channel_sources_.push_back(source_);
+  }
 }
 
 void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex i) {
@@ -111,8 +127,10 @@ void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex
   add_channel(freedom.name + unit, "Coordinate of the joint", [i](const Evaluation& at) { return at.q[i]; });
   add_channel(freedom.name + unit + "_s", "Rate of the joint's coordinate",
               [i](const Evaluation& at) { return at.qd[i]; });
-  add_channel(freedom.name + unit + "_s2", "Acceleration of the joint's coordinate",
-              [i](const Evaluation& at) { return at.qdd[i]; });
+  const Reading acceleration = [i](const Evaluation& at) { return at.qdd[i]; };
+  add_channel(freedom.name + unit + "_s2", "Acceleration of the joint's coordinate", acceleration);
+  add_extremes(freedom.name, unit + "_s2", acceleration, Channel::Kind::kLeastAcceleration,
+               static_cast<std::size_t>(i));
   const std::size_t k = measured_.accelerations.size();
   measured_.accelerations.push_back(i);
   const std::string name = freedom.name + "_acceleration";
@@ -121,6 +139,10 @@ void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex
                       "run_up_s), sought inside every integration step"},
              [k](const RunMetrics& metrics, const auto&) {
                return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.magnitude : kNoValue;
+             });
+  add_metric({.key = "peak_" + name + "_time_s", .help = "Time of peak_" + name + unit + "_s2"},
+             [k](const RunMetrics& metrics, const auto&) {
+               return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.t : kNoValue;
              });
   add_metric(
       {.key = "peak_" + name + "_whole_run" + unit + "_s2",
@@ -140,13 +162,10 @@ void LinkageQuantities::add_drive(const LinkageFreedom& freedom, FrameIndex i) {
   while (drives[static_cast<std::size_t>(drive)].coordinate != i) ++drive;
   const bool slides =
       built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
-  const std::string key = freedom.name + (slides ? "_drive_n" : "_drive_n_m");
-  const Reading force = [drive](const Evaluation& at) { return at.drive_force[drive]; };
-  add_channel(key, slides ? "Driving force of the coordinate" : "Driving torque of the coordinate", force);
-  add_load("peak_" + key,
-           std::string("Largest magnitude of the coordinate's driving ") + (slides ? "force" : "torque") +
-               " in the whole run",
-           1.0, force);
+  const std::string what = slides ? "force" : "torque";
+  add_sampled_load(freedom.name + "_drive", slides ? "_n" : "_n_m", "Driving " + what + " of the coordinate",
+                   "Largest magnitude of the coordinate's driving " + what + " in the whole run",
+                   [drive](const Evaluation& at) { return at.drive_force[drive]; });
 }
 
 void LinkageQuantities::add_force_elements(const LinkageFreedom& freedom, FrameIndex i) {
@@ -157,10 +176,9 @@ void LinkageQuantities::add_force_elements(const LinkageFreedom& freedom, FrameI
   if (freedom.friction) {
     const Reading friction = readings.back().force;
     readings.pop_back();
-    add_channel(freedom.name + "_friction" + unit, "Friction in the joint: " + what + " on the coordinate",
-                friction);
-    add_load("peak_" + freedom.name + "_friction" + unit,
-             "Largest magnitude of the joint's friction " + what + " in the whole run", 1.0, friction);
+    add_sampled_load(freedom.name + "_friction", unit,
+                     "Friction in the joint: " + what + " on the coordinate",
+                     "Largest magnitude of the joint's friction " + what + " in the whole run", friction);
     if (freedom.friction->by_reaction) add_normal_force(freedom, i);
   }
   if (freedom.load) {
@@ -169,25 +187,22 @@ void LinkageQuantities::add_force_elements(const LinkageFreedom& freedom, FrameI
   }
   if (!freedom.actuator) return;
   const ActuatorReadings& actuator = readings.front();
-  const std::string key = freedom.name + "_drive" + unit;
-  add_channel(key, "Driving " + what + " of the coordinate", actuator.force);
-  add_load("peak_" + key, "Largest magnitude of the coordinate's driving " + what + " in the whole run", 1.0,
-           actuator.force);
-  add_channel(freedom.name + "_drive_power_w", "Power of the driving " + what, actuator.power);
-  add_load("peak_" + freedom.name + "_drive_power_w",
-           "Largest magnitude of the power of the driving " + what + " in the whole run", 1.0,
-           actuator.power);
+  add_sampled_load(freedom.name + "_drive", unit, "Driving " + what + " of the coordinate",
+                   "Largest magnitude of the coordinate's driving " + what + " in the whole run",
+                   actuator.force);
+  add_sampled_load(freedom.name + "_drive_power", "_w", "Power of the driving " + what,
+                   "Largest magnitude of the power of the driving " + what + " in the whole run",
+                   actuator.power);
   if (actuator.current) add_motor(freedom.name, actuator);
   add_speed(freedom.name, i, slides);
 }
 
 void LinkageQuantities::add_motor(const std::string& name, const ActuatorReadings& motor) {
-  add_channel(name + "_current_a", "Current of the motor", motor.current);
+  add_sampled_load(name + "_current", "_a", "Current of the motor",
+                   "Largest magnitude of the motor's current in the whole run", motor.current);
   add_channel(name + "_voltage_v", "Voltage of the motor's supply", motor.voltage);
   add_channel(name + "_electric_work_j", "Electric work of the motor's supply since t = 0",
               motor.electric_work);
-  add_load("peak_" + name + "_current_a", "Largest magnitude of the motor's current in the whole run", 1.0,
-           motor.current);
   add_load("peak_" + name + "_electric_work_j",
            "Largest magnitude of the electric work of the motor's supply since t = 0", 1.0,
            motor.electric_work);
@@ -245,9 +260,9 @@ void LinkageQuantities::add_reaction(const LinkageJoint& joint,
     add_channel(joint.name + "_moment_" + kAxisNames[axis] + "_n_m",
                 "Moment" + of + kAxisNames[axis] + " in the global frame",
                 [=](const Evaluation& at) { return wrench(at).moment[axis]; });
-  add_load("peak_" + joint.name + "_reaction_n",
-           "Largest magnitude of the force in the joint in the whole run", 1.0,
-           [=](const Evaluation& at) { return wrench(at).force.norm(); });
+  add_sampled_load(joint.name + "_reaction", "_n", "Magnitude of the force in the joint",
+                   "Largest magnitude of the force in the joint in the whole run",
+                   [=](const Evaluation& at) { return wrench(at).force.norm(); });
 }
 
 void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut) {
@@ -257,24 +272,24 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
                 [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
   add_channel(joint.name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [=](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[cut].journal); });
-  const Reading force = [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; };
-  add_channel(joint.name + "_contact_force_n", "Sum of the radial normal forces on the journal", force);
-  add_channel(joint.name + "_friction_force_n", "Sum of the magnitudes of the friction forces on the journal",
-              [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
-  add_load("peak_" + joint.name + "_contact_force_n",
-           "Largest sum of the radial normal forces on the journal in the whole run", 1.0, force);
+  add_sampled_load(joint.name + "_contact_force", "_n", "Sum of the radial normal forces on the journal",
+                   "Largest sum of the radial normal forces on the journal in the whole run",
+                   [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; });
+  add_sampled_load(joint.name + "_friction_force", "_n",
+                   "Sum of the magnitudes of the friction forces on the journal",
+                   "Largest sum of the magnitudes of the friction forces on the journal in the whole run",
+                   [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
   add_load("max_" + joint.name + "_penetration_um",
            "Largest radial penetration of the journal into the bore in the whole run", 1e6,
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
   add_contact_time(joint.name + "_contact_time_ratio",
                    "Fraction of the whole run in which the journal touches the bore", {.joint = cut});
   if (!std::isfinite(joint.clearance->c_a)) return;
-  const Reading face_force = [=](const Evaluation& at) { return at.joints[cut].load.face_normal_sum; };
-  add_channel(joint.name + "_face_force_n",
-              "Sum of the normal forces of the shoulders on the journal's faces", face_force);
-  add_load("peak_" + joint.name + "_face_force_n",
-           "Largest sum of the normal forces of the shoulders on the journal's faces in the whole run", 1.0,
-           face_force);
+  add_sampled_load(joint.name + "_face_force", "_n",
+                   "Sum of the normal forces of the shoulders on the journal's faces",
+                   "Largest sum of the normal forces of the shoulders on the journal's faces in the whole "
+                   "run",
+                   [=](const Evaluation& at) { return at.joints[cut].load.face_normal_sum; });
   add_contact_time(joint.name + "_face_contact_time_ratio",
                    "Fraction of the whole run in which a face of the journal touches its shoulder",
                    {.joint = cut, .of_faces = true});
@@ -293,12 +308,11 @@ void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t inde
   const auto motion = [this, index](const Evaluation& at) {
     return calc_spring_motion(built_.mechanism.springs[index], at.frames);
   };
-  const Reading tension = [motion](const Evaluation& at) { return motion(at).tension; };
   add_channel(spring.name + "_length_m", "Distance of the spring's ends",
               [motion](const Evaluation& at) { return motion(at).length; });
-  add_channel(spring.name + "_tension_n", "Tension of the spring with its damper", tension);
-  add_load("peak_" + spring.name + "_tension_n", "Largest magnitude of the spring's tension in the whole run",
-           1.0, tension);
+  add_sampled_load(spring.name + "_tension", "_n", "Tension of the spring with its damper",
+                   "Largest magnitude of the spring's tension in the whole run",
+                   [motion](const Evaluation& at) { return motion(at).tension; });
 }
 
 void LinkageQuantities::add_body_load(const LinkageLoad& load, std::size_t index) {
@@ -323,10 +337,9 @@ void LinkageQuantities::add_accelerometer(const Linkage& linkage, std::size_t in
       if (const auto& law = ground[static_cast<std::size_t>(axis)]) a[axis] += calc_signal(*law, at.t).value;
     return a.dot(follows_body ? Eigen::Vector3d(body.R * place.direction) : place.direction);
   };
-  add_channel(one.name + "_accelerometer_m_s2", "Acceleration that the accelerometer shows", acceleration);
-  add_load("peak_" + one.name + "_accelerometer_m_s2",
-           "Largest magnitude of the acceleration that the accelerometer shows in the whole run", 1.0,
-           acceleration);
+  add_sampled_load(one.name + "_accelerometer", "_m_s2", "Acceleration that the accelerometer shows",
+                   "Largest magnitude of the acceleration that the accelerometer shows in the whole run",
+                   acceleration);
 }
 
 void LinkageQuantities::add_energy_channels() {

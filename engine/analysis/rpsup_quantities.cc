@@ -19,6 +19,24 @@ double penetration(const Evaluation& at) { return at.joints[0].load.max_penetrat
 double friction_force(const Evaluation& at) { return at.joints[0].load.friction_sum; }
 double reaction(const Evaluation& at) { return at.joints[0].reaction_W.norm(); }
 double none(const Evaluation&) { return kNoValue; }
+double zero(const Evaluation&) { return 0.0; }
+
+/// Measured::loads of an RPSUP linkage.
+enum class Load : std::size_t {
+  kContactForce,
+  kPenetration,
+  kFrictionForce,
+  kCrankTorque,
+  kRodForce,
+  kReaction,
+  kCrankCurrent,
+  kCrankElectricWork,
+  kRodCurrent,
+};
+
+double largest(const RunMetrics& metrics, Load load) {
+  return metrics.largest_load(static_cast<std::size_t>(load));
+}
 
 /// The readings of an actuated coordinate's actuator; of a driven one only the drive's force.
 ActuatorReadings drive_readings(const Mechanism& mechanism, FrameIndex coordinate) {
@@ -67,11 +85,17 @@ void add_reading(std::vector<Channel>& channels, std::string key, std::string he
   channels.push_back({.info = std::move(info), .read = std::move(read)});
 }
 
-/// Adds the least or the largest acceleration of a coordinate since the sample before.
-void add_extreme(std::vector<Channel>& channels, std::string key, std::string help, Channel::Kind kind,
-                 FrameIndex coordinate) {
-  QuantityInfo info{.key = std::move(key), .help = std::move(help)};
-  channels.push_back({.info = std::move(info), .kind = kind, .coordinate = coordinate});
+/// Adds the channels of the least and the largest value of a load between samples. @param exists  else null
+void add_extremes(std::vector<Channel>& channels, const std::string& stem, const std::string& unit,
+                  const Reading& read, Load load, bool exists = true) {
+  for (Channel& channel :
+       extreme_channels(stem, unit, read, Channel::Kind::kLeastLoad, static_cast<std::size_t>(load))) {
+    if (!exists) {
+      channel.kind = Channel::Kind::kReading;
+      channel.read = none;
+    }
+    channels.push_back(std::move(channel));
+  }
 }
 
 /// Time and the motion of crank, rod and slider.
@@ -88,21 +112,20 @@ void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channe
   add_reading(channels, "slider_position_m", "Position of the slider, link (2,1), along its guide",
               position(slider), "z^(2,1)");
   add_reading(channels, "slider_velocity_m_s", "Velocity of the slider", rate(slider), "ż^(2,1)");
-  add_reading(channels, "slider_acceleration_m_s2", "Acceleration of the slider",
-              [slider](const Evaluation& at) { return at.qdd[slider]; }, "z̈^(2,1)");
-  add_extreme(channels, "slider_acceleration_min_m_s2",
-              "Smallest acceleration of the slider since the sample before",
-              Channel::Kind::kLeastAcceleration, slider);
-  add_extreme(channels, "slider_acceleration_max_m_s2",
-              "Largest acceleration of the slider since the sample before",
-              Channel::Kind::kLargestAcceleration, slider);
+  const Reading acceleration = [slider](const Evaluation& at) { return at.qdd[slider]; };
+  add_reading(channels, "slider_acceleration_m_s2", "Acceleration of the slider", acceleration, "z̈^(2,1)");
+  for (Channel& channel :
+       extreme_channels("slider_acceleration", "_m_s2", acceleration, Channel::Kind::kLeastAcceleration,
+                        static_cast<std::size_t>(slider)))
+    channels.push_back(std::move(channel));
 }
 
 /// Adds the channels of a motor that moves crank or rod.
-void add_motor_channels(const std::string& link, const ActuatorReadings& motor,
+void add_motor_channels(const std::string& link, const ActuatorReadings& motor, Load current,
                         std::vector<Channel>& channels) {
   if (!motor.current) return;
   add_reading(channels, link + "_current_a", "Current of the " + link + "'s motor", motor.current);
+  add_extremes(channels, link + "_current", "_a", motor.current, current);
   add_reading(channels, link + "_voltage_v", "Voltage of the supply of the " + link + "'s motor",
               motor.voltage);
   add_reading(channels, link + "_electric_work_j",
@@ -124,19 +147,26 @@ void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>
   add_reading(channels, "contact_force_n",
               "Sum of the radial normal forces on the journal; null without clearance",
               clearance ? &radial_force : &none, "Σ f_n");
+  add_extremes(channels, "contact_force", "_n", radial_force, Load::kContactForce, clearance);
   add_reading(channels, "friction_force_n",
               "Sum of the magnitudes of the friction forces on the journal; null without clearance",
               clearance ? &friction_force : &none, "Σ |f_t|");
+  add_extremes(channels, "friction_force", "_n", friction_force, Load::kFrictionForce, clearance);
   add_reading(channels, "crank_torque_n_m", "Driving torque of the crank", crank.force);
+  add_extremes(channels, "crank_torque", "_n_m", crank.force, Load::kCrankTorque);
   add_reading(channels, "rod_force_n", "Driving force of the telescoping rod", rod.force);
-  add_motor_channels("crank", crank, channels);
-  add_motor_channels("rod", rod, channels);
+  add_extremes(channels, "rod_force", "_n", rod.force, Load::kRodForce);
+  add_motor_channels("crank", crank, Load::kCrankCurrent, channels);
+  add_motor_channels("rod", rod, Load::kRodCurrent, channels);
   add_reading(channels, "reaction_x_n", "Force of the coupler on the cross link: x in the global frame",
               reaction_along(0));
   add_reading(channels, "reaction_y_n", "Force of the coupler on the cross link: y in the global frame",
               reaction_along(1));
   add_reading(channels, "reaction_z_n", "Force of the coupler on the cross link: z in the global frame",
               reaction_along(2));
+  add_reading(channels, "joint_reaction_n", "Magnitude of the force of the coupler on the cross link",
+              reaction);
+  add_extremes(channels, "joint_reaction", "_n", reaction, Load::kReaction);
 }
 
 /// The energy account.
@@ -277,11 +307,12 @@ Measured rpsup_measured(const RpsupParameters& parameters, const Rpsup& rpsup) {
                          rod = drive_readings(rpsup.mechanism, rpsup.layout.rod);
   Measured measured{.accelerations = {rpsup.layout.slider},
                     .velocities = {},
-                    .loads = {radial_force, penetration, crank.force, rod.force, reaction},
+                    .loads = {radial_force, penetration, friction_force, crank.force, rod.force, reaction,
+                              crank.current ? crank.current : zero,
+                              crank.current ? crank.electric_work : zero, rod.current ? rod.current : zero},
                     .contacts = {{.joint = 0}},
                     .steady_from = parameters.run_up};
   if (parameters.crank_actuator) measured.velocities = {rpsup.layout.crank};
-  if (crank.current) measured.loads.insert(measured.loads.end(), {crank.current, crank.electric_work});
   return measured;
 }
 
@@ -301,17 +332,17 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
       metrics.calc_rms(0),
       ideal_peak,
       has_steady && ideal_peak > 0.0 ? slider.steady.magnitude / ideal_peak : kNoValue,
-      has_clearance ? metrics.largest_load(0) : kNoValue,
-      has_clearance ? 1e6 * metrics.largest_load(1) : kNoValue,
+      has_clearance ? largest(metrics, Load::kContactForce) : kNoValue,
+      has_clearance ? 1e6 * largest(metrics, Load::kPenetration) : kNoValue,
       static_cast<double>(metrics.onsets()),
       has_clearance ? metrics.contact_time(0) / outcome.t : kNoValue,
-      metrics.largest_load(2),
-      metrics.largest_load(3),
+      largest(metrics, Load::kCrankTorque),
+      largest(metrics, Load::kRodForce),
       parameters.crank_actuator ? metrics.calc_mean_velocity(0) : kNoValue,
       parameters.crank_actuator ? metrics.calc_speed_fluctuation(0) : kNoValue,
-      has_motor ? metrics.largest_load(5) : kNoValue,
-      has_motor ? metrics.largest_load(6) : kNoValue,
-      metrics.largest_load(4),
+      has_motor ? largest(metrics, Load::kCrankCurrent) : kNoValue,
+      has_motor ? largest(metrics, Load::kCrankElectricWork) : kNoValue,
+      largest(metrics, Load::kReaction),
       metrics.last_energy().friction_loss,
       metrics.last_energy().impact_loss,
       metrics.last_energy().structural_loss,

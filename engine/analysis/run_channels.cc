@@ -19,6 +19,15 @@ std::string pose_key(const NamedFrame& link, std::string_view part) {
 
 }  // namespace
 
+std::array<Channel, 2> extreme_channels(const std::string& stem, const std::string& unit,
+                                        const Reading& read, Channel::Kind kind, std::size_t index) {
+  const std::string rest = " value of " + stem + unit + " since the sample before";
+  QuantityInfo least{.key = stem + "_min" + unit, .help = "Least" + rest};
+  QuantityInfo largest{.key = stem + "_max" + unit, .help = "Largest" + rest};
+  return {Channel{.info = std::move(least), .read = read, .kind = kind, .index = index},
+          Channel{.info = std::move(largest), .kind = Channel::Kind::kLargest}};
+}
+
 std::vector<QuantityInfo> pose_channels(const std::vector<NamedFrame>& links) {
   std::vector<QuantityInfo> channels;
   for (const NamedFrame& link : links)
@@ -36,10 +45,11 @@ RunChannels::RunChannels(std::vector<Channel> channels, const std::vector<NamedF
       links_(links),
       prepare_(std::move(prepare)),
       last_rotations_(links.size(), Eigen::Quaterniond::Identity()) {
-  for (const Channel& channel : channels_) {
-    trajectory_.channels.push_back(channel.info);
-    if (channel.kind == Channel::Kind::kLeastAcceleration)
-      extremes_.push_back({.coordinate = channel.coordinate});
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    trajectory_.channels.push_back(channels_[k].info);
+    const Channel::Kind kind = channels_[k].kind;
+    if (kind == Channel::Kind::kLeastAcceleration || kind == Channel::Kind::kLeastLoad)
+      extremes_.push_back({.channel = k});
   }
   for (QuantityInfo& pose : pose_channels(links_)) trajectory_.channels.push_back(std::move(pose));
   trajectory_.columns.resize(trajectory_.channels.size());
@@ -49,60 +59,62 @@ void RunChannels::reserve(std::size_t samples) {
   for (std::vector<double>& column : trajectory_.columns) column.reserve(samples);
 }
 
-void RunChannels::take_step(const Evaluation& start, const Evaluation& end) {
+void RunChannels::take_step(const Evaluation& start, const Evaluation& end,
+                            std::span<const SteppedPeak> loads) {
   take_extremes(1.0);
   step_start_ = start.t;
   step_dt_ = end.t - start.t;
   for (Extremes& extremes : extremes_) {
-    const FrameIndex i = extremes.coordinate;
-    extremes.acceleration = StepQuadratic(start.qdd[i], end.qdd[i], end.qd[i] - start.qd[i], step_dt_);
+    const Channel& channel = channels_[extremes.channel];
+    if (channel.kind == Channel::Kind::kLeastLoad) {
+      extremes.values.take_step(loads[channel.index].start(), loads[channel.index].end());
+    } else {
+      const auto i = static_cast<FrameIndex>(channel.index);
+      extremes.values.take_step(start.qdd[i], end.qdd[i]);
+      extremes.values.take_curve({start.qdd[i], end.qdd[i], end.qd[i] - start.qd[i], step_dt_});
+    }
   }
   taken_ = 0.0;
 }
 
-void RunChannels::Extremes::take(double from, double until) {
-  for (const double s : {from, acceleration.find_extremum(from, until), until}) {
-    least = std::min(least, acceleration.value(s));
-    most = std::max(most, acceleration.value(s));
+void RunChannels::take_curves(std::span<const SteppedPeak> loads) {
+  for (Extremes& extremes : extremes_) {
+    const Channel& channel = channels_[extremes.channel];
+    if (channel.kind == Channel::Kind::kLeastLoad && loads[channel.index].curve())
+      extremes.values.take_curve(*loads[channel.index].curve());
   }
 }
 
 void RunChannels::take_extremes(double until) {
   if (!(taken_ < until)) return;
-  for (Extremes& extremes : extremes_) extremes.take(taken_, until);
+  for (Extremes& extremes : extremes_) extremes.values.take_part(taken_, until);
   taken_ = until;
 }
 
-RunChannels::Extremes& RunChannels::extremes_of(FrameIndex coordinate) {
-  return *std::find_if(extremes_.begin(), extremes_.end(),
-                       [&](const Extremes& e) { return e.coordinate == coordinate; });
-}
-
-double RunChannels::read(const Channel& channel, const Evaluation& at) {
-  switch (channel.kind) {
-    case Channel::Kind::kReading: return channel.read(at);
-    case Channel::Kind::kLeastAcceleration:
-      return std::min(extremes_of(channel.coordinate).least, at.qdd[channel.coordinate]);
-    case Channel::Kind::kLargestAcceleration:
-      return std::max(extremes_of(channel.coordinate).most, at.qdd[channel.coordinate]);
-    case Channel::Kind::kImbalance: return at.energy.calc_balance() - first_balance_;
+void RunChannels::sample_extremes(const Evaluation& at) {
+  for (Extremes& extremes : extremes_) {
+    const double value = channels_[extremes.channel].read(at);
+    if (!sampled_) extremes.values.restart(value);
+    extremes.values.take(value);
+    row_[extremes.channel] = extremes.values.least();
+    row_[extremes.channel + 1] = extremes.values.largest();
+    extremes.values.restart(value);
   }
-  return 0.0;
 }
 
 void RunChannels::take_sample(const Evaluation& at) {
-  if (!sampled_) {
-    sampled_ = true;
-    first_balance_ = at.energy.calc_balance();
-    for (Extremes& extremes : extremes_) extremes.least = extremes.most = at.qdd[extremes.coordinate];
-  }
+  if (!sampled_) first_balance_ = at.energy.calc_balance();
   take_extremes(std::min(1.0, step_dt_ > 0.0 ? (at.t - step_start_) / step_dt_ : 1.0));
   if (prepare_) prepare_(at);
-  row_.clear();
-  for (const Channel& channel : channels_) row_.push_back(read(channel, at));
+  row_.assign(channels_.size(), 0.0);
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    if (channels_[k].kind == Channel::Kind::kReading) row_[k] = channels_[k].read(at);
+    if (channels_[k].kind == Channel::Kind::kImbalance) row_[k] = at.energy.calc_balance() - first_balance_;
+  }
+  sample_extremes(at);
+  sampled_ = true;
   add_poses(at);
   for (std::size_t k = 0; k < row_.size(); ++k) trajectory_.columns[k].push_back(row_[k]);
-  for (Extremes& extremes : extremes_) extremes.least = extremes.most = at.qdd[extremes.coordinate];
 }
 
 void RunChannels::add_poses(const Evaluation& at) {

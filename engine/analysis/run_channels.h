@@ -1,28 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "engine/analysis/quantities.h"
 #include "engine/analysis/readings.h"
-#include "engine/analysis/step_quadratic.h"
+#include "engine/analysis/sample_extremes.h"
+#include "engine/analysis/stepped_peak.h"
 #include "engine/model/mechanism.h"
 
 namespace engine {
 
-/// One column of a trajectory and where it comes from: a reading, or the least or largest acceleration of a
-/// coordinate since the last sample.
+/// One column of a trajectory and where it comes from: a reading, or the least or largest value since the
+/// last sample of a coordinate's acceleration or of a load. The largest value's channel follows that of the
+/// least one.
 struct Channel {
-  enum class Kind { kReading, kLeastAcceleration, kLargestAcceleration, kImbalance };
+  enum class Kind { kReading, kLeastAcceleration, kLeastLoad, kLargest, kImbalance };
 
   QuantityInfo info;
-  Reading read = {};
+  Reading read = {};  ///< not of imbalances
   Kind kind = Kind::kReading;
-  FrameIndex coordinate = 0;  ///< of the accelerations
+  std::size_t index = 0;  ///< of a least value: the coordinate, or the load among Measured::loads
 };
+
+/// Channels of the least and of the largest value since the last sample of the quantity whose channel is STEM
+/// and UNIT in one word: STEM_min UNIT, STEM_max UNIT.
+/// @param kind   kLeastAcceleration or kLeastLoad  @param index  as Channel::index
+[[nodiscard]] std::array<Channel, 2> extreme_channels(const std::string& stem, const std::string& unit,
+                                                      const Reading& read, Channel::Kind kind,
+                                                      std::size_t index);
 
 /// The channels of the links' poses: origin, unit quaternion.
 [[nodiscard]] std::vector<QuantityInfo> pose_channels(const std::vector<NamedFrame>& links);
@@ -35,7 +47,10 @@ class RunChannels {
   /// Makes room for so many samples.
   void reserve(std::size_t samples);
 
-  void take_step(const Evaluation& start, const Evaluation& end);
+  /// @param loads  RunMetrics::loads() of the step
+  void take_step(const Evaluation& start, const Evaluation& end, std::span<const SteppedPeak> loads);
+  /// Loads of the last step whose curves are known by its middle.
+  void take_curves(std::span<const SteppedPeak> loads);
   void take_sample(const Evaluation& at);
 
   /// @param imbalance_scale  what imbalances are measured in, [J]; those of a run that turned over nothing
@@ -43,17 +58,14 @@ class RunChannels {
   [[nodiscard]] Trajectory finish(double imbalance_scale);
 
  private:
-  /// The extremes of one acceleration since the last sample.
+  /// Of a channel and the next one.
   struct Extremes {
-    FrameIndex coordinate = 0;
-    StepQuadratic acceleration{0.0, 0.0, 0.0, 1.0};
-    double least = 0.0, most = 0.0;
-    void take(double from, double until);
+    std::size_t channel;
+    SampleExtremes values{};
   };
 
   void take_extremes(double until);
-  [[nodiscard]] Extremes& extremes_of(FrameIndex coordinate);
-  [[nodiscard]] double read(const Channel& channel, const Evaluation& at);
+  void sample_extremes(const Evaluation& at);
   void add_poses(const Evaluation& at);
 
   std::vector<Channel> channels_;

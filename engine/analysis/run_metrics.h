@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "engine/analysis/readings.h"
@@ -62,6 +63,8 @@ class RunMetrics {
   [[nodiscard]] double steady_time() const { return steady_time_; }
   /// Root mean square over the steady window; not a number if there is none.
   [[nodiscard]] double calc_rms(std::size_t k) const;
+  /// Measured::loads, with their values in the last step.
+  [[nodiscard]] std::span<const SteppedPeak> loads() const { return loads_; }
   /// Largest magnitude of one of Measured::loads.
   [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
   /// Time in which one of Measured::contacts touched, [s]

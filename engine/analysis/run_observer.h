@@ -16,10 +16,13 @@ class RunObserver : public Observer {
 
   void on_step(const Evaluation& start, const Evaluation& end) override {
     metrics.take_step(start, end);
-    channels.take_step(start, end);
+    channels.take_step(start, end, metrics.loads());
   }
   [[nodiscard]] bool wants_middle() override { return metrics.wants_middle(); }
-  void on_middle(const Evaluation& at) override { metrics.take_middle(at); }
+  void on_middle(const Evaluation& at) override {
+    metrics.take_middle(at);
+    channels.take_curves(metrics.loads());
+  }
   void on_sample(const Evaluation& at) override { channels.take_sample(at); }
   void on_onsets(int rings, int faces) override { metrics.take_onsets(rings, faces); }
   [[nodiscard]] bool stop_requested(double t) override { return stop_requested_ && stop_requested_(t); }

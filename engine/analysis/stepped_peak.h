@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/analysis/step_quadratic.h"
 
@@ -24,16 +25,23 @@ class SteppedPeak {
     t0_ = t0;
     dt_ = t1 - t0;
     slope_ = slope;
+    curve_.reset();
     return has_extremum && std::max(std::abs(start), std::abs(end)) > kNear * peak_.magnitude;
   }
 
   /// Takes the value in the middle of the last step: what lies between is on the parabola through the three.
   void take_middle(double middle) {
     const double mean = (start_ + 4.0 * middle + end_) / 6.0;
-    peak_.take(StepQuadratic(start_, end_, mean * dt_, dt_), 0.0, 1.0, t0_, dt_);
+    curve_ = StepQuadratic(start_, end_, mean * dt_, dt_);
+    peak_.take(*curve_, 0.0, 1.0, t0_, dt_);
   }
 
   [[nodiscard]] const Peak& peak() const { return peak_; }
+  /// Values at the ends of the last step.
+  [[nodiscard]] double start() const { return start_; }
+  [[nodiscard]] double end() const { return end_; }
+  /// The quantity inside the last step, if the middle was taken.
+  [[nodiscard]] const std::optional<StepQuadratic>& curve() const { return curve_; }
 
  private:
   static constexpr double kNear = 0.9;    ///< of the peak: an end this large may be the foot of a larger one
@@ -53,6 +61,7 @@ class SteppedPeak {
   Peak peak_;
   long steps_ = 0;
   double start_ = 0.0, end_ = 0.0, t0_ = 0.0, dt_ = 0.0, slope_ = 0.0;  ///< of the last step
+  std::optional<StepQuadratic> curve_;
 };
 
 }  // namespace engine

@@ -148,19 +148,6 @@ TEST(RigidCase, StaysAtRestWhereNothingMovesIt) {
   EXPECT_TRUE(std::isnan(metric(run, "peak_slider_acceleration_m_s2")));  // the run ends before the steady window begins
 }
 
-// The extremes between samples hold the peak of the run, which no sample need have seen.
-TEST(Channels, ExtremesBetweenSamplesHoldThePeak) {
-  const RunResult run = simulate_rpsup({}, {.duration = 0.3, .output_rate = 200.0}, {});
-  ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
-  double sampled = 0.0;
-  double extreme = 0.0;
-  for (const double a : column(run, "slider_acceleration_m_s2")) sampled = std::max(sampled, std::abs(a));
-  for (const double a : column(run, "slider_acceleration_min_m_s2")) extreme = std::max(extreme, std::abs(a));
-  for (const double a : column(run, "slider_acceleration_max_m_s2")) extreme = std::max(extreme, std::abs(a));
-  EXPECT_DOUBLE_EQ(extreme, metric(run, "peak_slider_acceleration_whole_run_m_s2"));
-  EXPECT_LT(sampled, 0.9 * extreme);
-}
-
 TEST(Channels, MetricsDoNotDependOnTheSampling) {
   for (const double c_r : {0.25e-3, 0.0}) {
     RpsupParameters parameters = validation::across_rpsup();

@@ -8,7 +8,7 @@ import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, settingOf,
   titleOfLinkage } from "/run/described.js";
-import { withEnvelope } from "/run/envelopes.js";
+import { withEnvelope, withoutEnds } from "/run/envelopes.js";
 import { lossesCard, metricsCard, runCard } from "/run/facts.js";
 import { idealOf, isIdeal } from "/run/ideal.js";
 import { motionCard } from "/analysis/motion.js";
@@ -184,20 +184,20 @@ class JobPage {
         && !this.added.includes(channel))));
     this.drawAcceleration([]);
     for (const channel of this.added) this.extra.append(this.channelCard(channel));
-    const offered = columns.map((name) => [name, titleOfChannel(name)]);
-    const add = choice("Add channel", [["", "choose …"], ...offered], "",
+    const offered = withoutEnds(columns);
+    const add = choice("Add channel", [["", "choose …"], ...offered.map((name) => [name, titleOfChannel(name)])], "",
       (channel) => this.add(channel, add));
     const plots = [this.main,
       joints.length > 0 ? this.card("Contact force", joints.map(({ prefix }) => `${prefix}contact_force_n`)) : null,
       drives.length > 0 ? this.card(titleOfDrives(drives), drives) : null,
       this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay(),
         this.measurements(columns)),
-      motionCard(this.job, columns, this.signal),
+      motionCard(this.job, offered, this.signal),
       !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
     const side = [sceneCard(this.job, all, this.times, this.signal),
       ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs),
       runCard(this.job, this.schema, this.axes)];
-    return [timeBar(this.times, this.job, this.acceleration.envelope ?? [this.acceleration.channel], this.signal),
+    return [timeBar(this.times, this.job, this.acceleration, this.signal),
       h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
 
@@ -207,9 +207,9 @@ class JobPage {
    * @param {Partial<Parameters<typeof plotCard>[1]>} more
    */
   card(title, channels, more = {}) {
-    const shown = channels.map((channel) => withEnvelope(channel, this.columns));
-    return plotCard(title, { traces: [...tracesOf(this.jobs, shown, title), ...this.measuredOf(channels)],
-      note: peakNote(this.jobs, channels, shown.some(({ envelope }) => !envelope)),
+    const traces = tracesOf(this.jobs, channels.map((channel) => withEnvelope(channel, this.columns)), title);
+    return plotCard(title, { traces: [...traces, ...this.measuredOf(channels)],
+      note: peakNote(this.jobs, channels),
       times: this.times, height: 220, signal: this.signal, ...more });
   }
 
@@ -227,7 +227,7 @@ class JobPage {
     this.main.replaceChildren(plotCard(nameOfChannel(acceleration.channel),
       { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
         ...this.measuredOf([acceleration.channel])],
-        note: peakNote(this.jobs, [acceleration.channel], !acceleration.envelope),
+        note: peakNote(this.jobs, [acceleration.channel]),
         times: this.times, height: 320, signal, tools }));
   }
 

@@ -18,3 +18,10 @@ export function withEnvelope(channel, columns) {
   }
   return { channel };
 }
+
+/// Channels without the ends of envelopes.
+/** @param {string[]} columns */
+export function withoutEnds(columns) {
+  const ends = new Set(columns.flatMap((channel) => withEnvelope(channel, columns).envelope ?? []));
+  return columns.filter((channel) => !ends.has(channel));
+}

@@ -6,7 +6,6 @@ import { nameOfChannel, unitOf } from "/core/format.js";
 import { term } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { labelsOf } from "/run/labels.js";
-import { peakLevel } from "/run/peaks.js";
 import { timePlot } from "/run/time_plot.js";
 
 /// @param note   what stands below the plot; empty: nothing
@@ -61,9 +60,8 @@ export function tracesOf(jobs, channels, title = "") {
   const names = isPlain && channels.length > 1 ? shortened(full, title) : full;
   return jobs.flatMap((job, j) => channels.map((each, c) => {
     const { channel, envelope = undefined } = typeof each === "string" ? { channel: each } : each;
-    const level = envelope ? undefined : peakLevel(job, channel);
     const name = channels.length > 1 || !several ? names[c] : "";
-    return { job: job.id, channel, envelope, level,
+    return { job: job.id, channel, envelope,
       name: [name, several ? labels[j] : ""].filter(Boolean).join(", "),
       colour: () => lineColour(j * channels.length + c) };
   }));

@@ -2,24 +2,20 @@
 // Options of a plot over time for uPlot: look, and response to the pointer.
 import { number, unitOf } from "/core/format.js";
 import { colour, isDark } from "/core/theme.js";
-import { levelsHook, rangeWith } from "/run/levels.js";
 import { columnsOf } from "/run/plot_data.js";
 
-/// @param uPlot  the library
 /**
- * @param {any} uPlot
  * @param {Trace[]} traces
  * @param {TimeWindow} times
  * @param {number} width
  * @param {number} height
  * @returns {any}
  */
-export function plotOptions(uPlot, traces, times, width, height) {
+export function plotOptions(traces, times, width, height) {
   const units = [...new Set(traces.map((trace) => unitOf(trace.channel) || "1"))];
-  const ranges = units.map((unit) => [unit, { range: rangeWith(traces, times, unit, uPlot.rangeNum) }]);
   return {
     width, height,
-    scales: { x: { time: false, range: () => [times.from, times.to] }, ...Object.fromEntries(ranges) },
+    scales: { x: { time: false, range: () => [times.from, times.to] } },
     series: [{ label: "t [s]", value: (_, value) => number(value, 6) },
       ...traces.flatMap((trace) => seriesOf(trace, units.length === 1))],
     bands: bandsOf(traces),
@@ -30,7 +26,6 @@ export function plotOptions(uPlot, traces, times, width, height) {
       mousedown: (_, __, handle) => (event) => { if (!event.shiftKey) handle(event); return null; },
     } },
     hooks: {
-      draw: [levelsHook(traces)],
       setSelect: [(plot) => zoomToSelection(plot, times)],
       setCursor: [(plot) =>
         { if (plot.cursor.left >= 0 && plot.cursor.event) times.pointAt(plot.posToVal(plot.cursor.left, "x")); }],

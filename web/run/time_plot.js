@@ -47,7 +47,7 @@ export async function timePlot(element, { traces, times, height, label, signal }
 
   function make() {
     plot?.destroy();
-    plot = new uPlot(plotOptions(uPlot, traces, times, element.clientWidth, height), data, place);
+    plot = new uPlot(plotOptions(traces, times, element.clientWidth, height), data, place);
     plot.over.append(now);
     tellLegend();
     watchPointer(plot, times);
