@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <matio.h>
+#include <zlib.h>
 
 #include "jobs/exports/trajectory_file.h"
 #include "jobs/measurements/channel_unit.h"
@@ -94,6 +95,23 @@ class MatStruct {
   std::vector<std::pair<std::string, MatVariable>> fields_;
 };
 
+/// Whether bytes are one stream of zlib from its beginning to its checksum.
+bool is_whole_stream(std::string& packed) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::array<Bytef, 65536> scratch{};
+  int result = Z_OK;
+  while (result == Z_OK) {
+    stream.next_out = scratch.data();
+    stream.avail_out = scratch.size();
+    result = inflate(&stream, Z_NO_FLUSH);
+  }
+  inflateEnd(&stream);
+  return result == Z_STREAM_END && stream.avail_in == 0;
+}
+
 class MatFile final : public TrajectoryFile {
  public:
   MatFile(std::filesystem::path path, const ExportedSweep& sweep) : path_(std::move(path)) {
@@ -142,24 +160,32 @@ class MatFile final : public TrajectoryFile {
  private:
   void write(const MatVariable& variable) {
     if (Mat_VarWrite(file_, variable.get(), MAT_COMPRESSION_ZLIB) != 0) throw_unwritten(path_, errno);
+    ++written_;
   }
 
-  /// Whether the file has every byte of its variables: the library does not tell of those that the disk did
-  /// not take. Each variable begins with its type and its size.
+  /// Whether the file has every variable whole: the library does not tell of bytes that the disk did not
+  /// take, and then may write the size of those that it took. Each variable is a tag, type and size, and a
+  /// stream of zlib, which ends with a checksum.
   [[nodiscard]] bool is_complete() const {
     constexpr std::streamoff kHeadBytes = 128;
-    const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path_));
+    const auto size = static_cast<std::uint64_t>(std::filesystem::file_size(path_));
     std::ifstream file(path_, std::ios::binary);
-    std::streamoff at = kHeadBytes;
-    for (std::array<std::uint32_t, 2> tag{}; at < size; at += 8 + static_cast<std::streamoff>(tag[1])) {
-      file.seekg(at);
-      if (!file.read(reinterpret_cast<char*>(tag.data()), sizeof tag)) return false;
+    file.seekg(kHeadBytes);
+    std::string packed;
+    std::size_t found = 0;
+    std::array<std::uint32_t, 2> tag{};
+    for (; file.read(reinterpret_cast<char*>(tag.data()), sizeof tag); ++found) {
+      if (tag[1] > size) return false;
+      packed.resize(tag[1]);
+      if (!file.read(packed.data(), static_cast<std::streamsize>(packed.size())) || !is_whole_stream(packed))
+        return false;
     }
-    return at == size;
+    return file.gcount() == 0 && found == written_;
   }
 
   std::filesystem::path path_;
   mat_t* file_ = nullptr;
+  std::size_t written_ = 0;                   ///< variables
   std::map<std::string, std::string> units_;  ///< of all columns
   std::vector<double> values_;
 };

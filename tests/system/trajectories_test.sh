@@ -116,7 +116,7 @@ PY
 # A file that the disk does not take is no file, whatever the library says.
 stop_service TERM
 for format in h5 mat npz; do
-  for kilobytes in 4 40 400; do
+  for kilobytes in 4 16 40 41 42 43 70 150 400; do
     code=0
     (ulimit -f "$kilobytes"; exec "$rpsup" export "short.$format" --db all.db --trajectories "$sweep") >out 2>err || code=$?
     expect_equal "$code" 3 "exit code of an export to $format that ends after $kilobytes kB"
