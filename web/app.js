@@ -28,6 +28,9 @@ let leave = () => {};
 let shown = 0;
 const againMs = 2000;
 
+/// Kinds of pages of one sweep or job. Without its id they are the list of sweeps.
+const ofOne = ["sweeps", "analyses", "jobs"];
+
 /// Kinds of pages with a link of their own in the navigation.
 const linked = ["new", "searches", "wear", "optimisations", "fits", "measurements", "help"];
 
@@ -71,7 +74,8 @@ function sayMissing(error, signal) {
 }
 
 async function show() {
-  const { kind, id, query } = readRoute();
+  const { id, query, ...route } = readRoute();
+  const kind = id === "" && ofOne.includes(route.kind) ? "" : route.kind;
   const number = ++shown;
   leave();
   const ended = new AbortController();

@@ -75,16 +75,20 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
 }
 
 std::string choose_free_metric(const ResultTable& table, const std::vector<std::string>& driven) {
-  std::string chosen = choose_metric(table, "");
-  if (chosen == kReplicateMetric) return chosen;
+  std::string usual = choose_metric(table, "");
+  if (usual == kReplicateMetric) return usual;
+  std::vector<std::string> free;
   for (const std::string_view metric : metrics_of(table)) {
     const auto is_of = [&](const std::string& coordinate) {
       return metric.find("_" + coordinate + "_acceleration") != std::string_view::npos;
     };
     if (std::ranges::none_of(driven, is_of) && varies(table, find_column(table, std::string(metric), "")))
-      return std::string(metric);
+      free.emplace_back(metric);
   }
-  return chosen;
+  const auto acceleration = std::ranges::find_if(
+      free, [](const std::string& metric) { return metric.find("_acceleration_") != std::string::npos; });
+  if (acceleration != free.end()) return *acceleration;
+  return free.empty() ? usual : free.front();
 }
 
 std::vector<std::string> choose_metrics(const ResultTable& table, std::span<const std::string_view> wanted) {

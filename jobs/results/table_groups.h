@@ -33,8 +33,8 @@ struct RowGroup {
 ///     metric
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
 
-/// The peak of the slider's acceleration; of other linkages the first metric whose values differ and that no
-/// drive prescribes, or the first one.
+/// The peak of the slider's acceleration; of other linkages the first acceleration whose values differ and
+/// that no drive prescribes, else the first such metric, else the first one.
 /// @param driven  coordinates that move by a law
 [[nodiscard]] std::string choose_free_metric(const ResultTable& table,
                                              const std::vector<std::string>& driven);

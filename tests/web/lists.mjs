@@ -157,6 +157,14 @@ test("measurements are sorted and deleted together", async () => {
   await leave(page);
 });
 
+test("pages of one sweep or job without its id are the list", async () => {
+  for (const kind of ["sweeps", "analyses", "jobs"]) {
+    const page = await visit(`#/${kind}`);
+    await page.getByRole("heading", { name: "Sweeps", level: 1 }).waitFor();
+    await leave(page);
+  }
+});
+
 test("a view says that it loads", async () => {
   const page = await visit("#/wear");
   await page.getByRole("heading", { name: "Wear" }).first().waitFor();

@@ -11,14 +11,15 @@ export function metricsOf(rows, axes) {
     && !axes.includes(column));
 }
 
-/// The metric that a page shows first: of a described linkage the first one that no drive prescribes and that differs
-/// between the jobs, else the first one.
+/// The metric that a page shows first: of a described linkage the first acceleration that no drive prescribes and that
+/// differs between the jobs, else the first such metric, else the first one.
 /** @param {string[]} metrics  @param {Api.Row[]} rows  @param {Api.Sweep} sweep  @returns {string} */
 export function usualMetric(metrics, rows, { request }) {
   const linkage = request?.parameters?.linkage;
   if (typeof linkage !== "object") return metrics[0];
   const free = metrics.filter((metric) => !drivenCoordinates(linkage).some((name) => metric.includes(`_${name}_accel`)));
-  return free.find((metric) => varies(rows, metric)) ?? free[0] ?? metrics[0];
+  const varying = free.filter((metric) => varies(rows, metric));
+  return varying.find((metric) => metric.includes("_acceleration_")) ?? varying[0] ?? free[0] ?? metrics[0];
 }
 
 /// Coordinates that move by a law.

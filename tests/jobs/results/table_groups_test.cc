@@ -18,6 +18,12 @@ TEST(ChooseFreeMetric, LeavesOutWhatADrivePrescribes) {
   EXPECT_EQ(choose_free_metric(table, {}), "peak_crank_acceleration_rad_s2");
 }
 
+TEST(ChooseFreeMetric, PrefersAnAcceleration) {
+  const ResultTable table{.columns = {"job_id", "state", "peak_crank_drive_n_m", "peak_rod_acceleration_m_s2"},
+                          .rows = {{"a", "succeeded", 1.0, 110.0}, {"b", "succeeded", 2.0, 120.0}}};
+  EXPECT_EQ(choose_free_metric(table, {"crank"}), "peak_rod_acceleration_m_s2");
+}
+
 TEST(ChooseFreeMetric, IsTheFirstOneIfNoneVaries) {
   const ResultTable table{.columns = {"job_id", "state", "one_m", "other_m"},
                           .rows = {{"a", "succeeded", 1.0, 1.0}, {"b", "succeeded", 1.0, 1.0 + 1e-12}}};
