@@ -57,15 +57,20 @@ FitPath::Neighbour FitPath::neighbour(const Eigen::VectorXd& parts, Eigen::Index
   return {std::move(point), exact};
 }
 
-std::vector<double> FitPath::first_distances(double part) const {
-  const double h = problem_.options.step;
+double FitPath::step_of(Eigen::Index column) const {
+  const std::vector<double>& steps = problem_.options.steps;
+  return steps.empty() ? problem_.options.step : steps[free_[static_cast<std::size_t>(column)]];
+}
+
+std::vector<double> FitPath::first_distances(double part, Eigen::Index column) const {
+  const double h = step_of(column);
   if (part + h > 1.0) return {-h};
   if (problem_.options.differences == Differences::kForward || part - h < 0.0) return {h};
   return {h, -h};
 }
 
-std::vector<double> FitPath::fallback_distances(double part) const {
-  const double h = problem_.options.step;
+std::vector<double> FitPath::fallback_distances(double part, Eigen::Index column) const {
+  const double h = step_of(column);
   std::vector<double> distances{h, -h, kShorterDifference * h, -kShorterDifference * h};
   std::erase_if(distances, [&](double d) { return part + d > 1.0 || part + d < 0.0; });
   return distances;
@@ -81,7 +86,7 @@ const std::optional<std::vector<double>>* FitPath::visit(const FitPoint& point) 
 void FitPath::speculate(const Eigen::VectorXd& parts) {
   std::size_t left = problem_.options.processors - std::min<std::size_t>(problem_.options.processors, 1);
   for (Eigen::Index k = 0; k < parts.size(); ++k) {
-    for (const double distance : first_distances(parts[k])) {
+    for (const double distance : first_distances(parts[k], k)) {
       if (left == 0) return;
       --left;
       visit(neighbour(parts, k, distance).point);
@@ -155,14 +160,14 @@ FitPath::Step FitPath::accept(const Eigen::VectorXd& parts) {
 bool FitPath::add_column(const Eigen::VectorXd& parts, Eigen::Index column) {
   std::vector<Neighbour> used;
   bool waits = false;
-  for (const double distance : first_distances(parts[column])) {
+  for (const double distance : first_distances(parts[column], column)) {
     Neighbour beside = neighbour(parts, column, distance);
     const auto* const told = visit(beside.point);
     waits = waits || told == nullptr;
     if (told != nullptr && told->has_value()) used.push_back(std::move(beside));
   }
   if (waits) return true;
-  for (const double distance : fallback_distances(parts[column])) {
+  for (const double distance : fallback_distances(parts[column], column)) {
     if (!used.empty()) break;
     Neighbour beside = neighbour(parts, column, distance);
     const auto* const told = visit(beside.point);

@@ -48,8 +48,9 @@ class FitPath {
 
   [[nodiscard]] FitPoint point_at(const Eigen::VectorXd& parts) const;
   [[nodiscard]] Neighbour neighbour(const Eigen::VectorXd& parts, Eigen::Index column, double distance) const;
-  [[nodiscard]] std::vector<double> first_distances(double part) const;
-  [[nodiscard]] std::vector<double> fallback_distances(double part) const;
+  [[nodiscard]] double step_of(Eigen::Index column) const;
+  [[nodiscard]] std::vector<double> first_distances(double part, Eigen::Index column) const;
+  [[nodiscard]] std::vector<double> fallback_distances(double part, Eigen::Index column) const;
   const std::optional<std::vector<double>>* visit(const FitPoint& point);
   void speculate(const Eigen::VectorXd& parts);
   bool add_column(const Eigen::VectorXd& parts, Eigen::Index column);

@@ -56,8 +56,24 @@ constexpr double kLeastBox = 1e-3;
 
 /// Part of the sum of squares by which the noise of a measurement is known too little.
 constexpr double kNoiseMisfit = 0.05;
-/// Steps of the differences of least squares, one after the other: the long ones lead across what is rugged.
-constexpr std::array<double, 4> kDifferenceSteps{1e-2, 1e-3, 1e-4, 1e-5};
+/// Changes of the residuals, over the residuals, by the differences of the passes of least squares after the
+/// first one: large ones lead across what is rugged, small ones to the bottom of what is smooth and bent.
+/// Parameters differ in what they change.
+constexpr std::array<double, 5> kChanges{0.0, 0.5, 0.2, 0.1, 0.005};
+constexpr std::size_t kPassOfIntervals = 3;  ///< whose differences are those of the intervals, too
+constexpr double kFirstStep = 1e-2;  ///< of all parameters
+constexpr double kShortestStep = 1e-5;
+constexpr double kLongestStep = 0.1;
+
+/// Steps of the parameters that change residuals by a norm. @param jacobian  by the parts of the spans
+std::vector<double> find_steps(const Eigen::MatrixXd& jacobian, double change) {
+  std::vector<double> steps;
+  for (const auto& column : jacobian.colwise()) {
+    const double slope = std::max(column.norm(), std::numeric_limits<double>::min());
+    steps.push_back(std::clamp(change / slope, kShortestStep, kLongestStep));
+  }
+  return steps;
+}
 
 std::vector<double> as_vector(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
 
@@ -240,7 +256,7 @@ std::pair<double, double> FitSampler::box_of(std::size_t i) const {
 }
 
 /// Sets the next search's box: at its sides residuals have changed by as much as they are, by the derivatives
-/// with the longest steps.
+/// of the first pass.
 void FitSampler::set_box(const LeastSquaresResult& result) {
   for (std::size_t i = 0; i < box_sizes_.size(); ++i) {
     const double slope = result.jacobian.col(static_cast<Eigen::Index>(i)).norm();
@@ -299,11 +315,14 @@ bool FitSampler::gains_since(const FitPoint& earlier) {
   return gain > kLeastGain && summary_.points.size() < global_limit_;
 }
 
-void FitSampler::begin_local(const FitPoint& start, std::size_t step) {
-  if (step == 0) pass_start_ = start;
+void FitSampler::begin_local(const FitPoint& start, std::size_t pass) {
+  if (pass == 0) {
+    pass_start_ = start;
+    steps_.assign(start.size(), kFirstStep);
+  }
   summary_.stage = FitStage::kLocal;
   local_start_ = start;
-  step_ = step;
+  pass_ = pass;
   evaluations_ = {};
   residuals_.clear();
   factors_.assign(problem_.signals.size(), 1.0);
@@ -313,10 +332,9 @@ void FitSampler::begin_local(const FitPoint& start, std::size_t step) {
 }
 
 LeastSquaresOptions FitSampler::local_options() const {
-  LeastSquaresOptions options{.max_evaluations = local_limit_,
-                              .step = ends_ ? last_step_ : kDifferenceSteps[step_]};
+  LeastSquaresOptions options{.max_evaluations = local_limit_, .steps = steps_};
   if (is_point_wise()) return options;
-  options.step = kFeatureStep;
+  options.steps.assign(steps_.size(), kFeatureStep);
   options.differences = Differences::kCentral;
   options.max_iterations = kFeatureIterations;
   return options;
@@ -352,31 +370,29 @@ FitSampler::Points FitSampler::run_local() {
   }
 }
 
-/// Step that changes the sum of squares by as much as the 95 % interval allows, for a parameter in the
-/// middle: shorter ones see the rugged, which is steeper than the valley, longer ones its bends.
-double FitSampler::find_last_step(const std::vector<double>& residuals) const {
-  const double noise = 4.0 * sum_of_squares(residuals) / static_cast<double>(residuals.size());
-  const double change = std::sqrt(noise + (leaves_noise_ ? 0.0 : observer_->misfit(residuals)));
-  std::vector<double> steps;
-  for (Eigen::Index i = 0; i < jacobian_.cols(); ++i)
-    steps.push_back(change / std::max(jacobian_.col(i).norm(), std::numeric_limits<double>::min()));
-  std::ranges::sort(steps);
-  return std::clamp(steps[steps.size() / 2], kDifferenceSteps.back(), kDifferenceSteps.front());
-}
-
 void FitSampler::judge_residuals(const std::vector<double>& residuals) {
   leaves_noise_ = observer_->is_noise(residuals) &&
                   observer_->misfit(residuals) < kNoiseMisfit * sum_of_squares(residuals);
 }
 
-/// After the shortest step the best point is judged, and the search goes on as long as it leaves more than
+/// After the last pass the best point is judged, and the search goes on as long as it leaves more than
 /// noise.
 void FitSampler::end_pass(const LeastSquaresResult& result) {
   base_points_.push_back(result.x);
   choose_best(base_points_);
-  if (step_ == 0) set_box(result);
-  if (step_ + 1 < kDifferenceSteps.size()) return begin_local(best_, step_ + 1);
+  if (pass_ == 0) set_box(result);
+  if (pass_ == kPassOfIntervals) keep_jacobian(result);
+  if (pass_ + 1 < kChanges.size()) {
+    steps_ = find_steps(result.jacobian, kChanges[pass_ + 1] * std::sqrt(result.sum));
+    return begin_local(best_, pass_ + 1);
+  }
   judge_residuals(residuals_of_best());
+  if (leaves_noise_) end_polish();
+  else if (gains_since(pass_start_)) begin_local(best_, 0);
+  else begin_scan();
+}
+
+void FitSampler::keep_jacobian(const LeastSquaresResult& result) {
   std::vector<double> inverse_factors;
   for (const double factor : factors_) inverse_factors.push_back(1.0 / factor);
   jacobian_ = result.jacobian;
@@ -385,9 +401,6 @@ void FitSampler::end_pass(const LeastSquaresResult& result) {
         observer_->scale_signals({column.begin(), column.end()}, inverse_factors);
     column = Eigen::Map<const Eigen::VectorXd>(unscaled.data(), column.size());
   }
-  if (leaves_noise_) end_polish();
-  else if (gains_since(pass_start_)) begin_local(best_, 0);
-  else begin_scan();
 }
 
 /// Noise may be left in a dip beside the true values. Searches go on around it until one finds nothing
@@ -476,8 +489,12 @@ void FitSampler::end_search() {
     return begin_global();
   }
   ends_ = true;
-  last_step_ = find_last_step(residuals_of_best());
-  begin_local(best_, step_);
+  // Where more than noise is left, the intervals are of what changes the sum by as much.
+  const std::vector<double> residuals = residuals_of_best();
+  const double part = kChanges[kPassOfIntervals];
+  steps_ = find_steps(jacobian_, std::sqrt(leaves_noise_ ? part * part * sum_of_squares(residuals)
+                                                         : observer_->misfit(residuals)));
+  begin_local(best_, kPassOfIntervals);
 }
 
 FitSampler::Points FitSampler::run_profile() {
@@ -494,7 +511,7 @@ FitSampler::Points FitSampler::run_profile() {
       for (const ProfileInterval& interval : *answer.result) {
         if (!interval.better || restarts_ >= kMostRestarts) continue;
         ++restarts_;
-        begin_local(*interval.better, step_);
+        begin_local(*interval.better, pass_);
         return {};
       }
       summary_.profiles = std::move(*answer.result);

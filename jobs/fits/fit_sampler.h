@@ -63,7 +63,7 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] std::pair<double, double> box_of(std::size_t i) const;
   [[nodiscard]] UnitPoint box_parts_of(const FitPoint& point) const;
   void set_box(const LeastSquaresResult& result);
-  void begin_local(const FitPoint& start, std::size_t step);
+  void begin_local(const FitPoint& start, std::size_t pass);
   [[nodiscard]] bool gains_since(const FitPoint& earlier);
   void weigh_signals(const FitPoint& point);
   void begin_scan();
@@ -73,9 +73,9 @@ class FitSampler final : public StudySampler {
   /// Sums of all points by features and their scale.
   void sum_features();
   void end_pass(const LeastSquaresResult& result);
+  void keep_jacobian(const LeastSquaresResult& result);
   void end_polish();
   void judge_residuals(const std::vector<double>& residuals);
-  [[nodiscard]] double find_last_step(const std::vector<double>& residuals) const;
   void end_local(LeastSquaresResult result);
 
   // Points and their jobs.
@@ -128,20 +128,20 @@ class FitSampler final : public StudySampler {
   std::optional<PopulationSearch> population_;
   std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
   FitPoint box_centre_;
-  Eigen::MatrixXd jacobian_;          ///< of the least squares that ended last, of residuals without factors
+  Eigen::MatrixXd jacobian_;          ///< for the intervals, of residuals without factors
   std::size_t search_ = 0;            ///< number of the population search
   bool leaves_noise_ = true;          ///< whether the residuals of the least squares are noise
   std::optional<double> noise_loss_;  ///< of the best point when it left noise last
   bool ends_ = false;                 ///< whether the last least squares have begun
   Points scan_;
   std::vector<double> factors_;  ///< of each signal's residuals in least squares
-  std::size_t step_ = 0;         ///< of the differences of least squares, in kDifferenceSteps
+  std::size_t pass_ = 0;         ///< of the least squares, in kChanges
+  std::vector<double> steps_;    ///< of the differences of the parameters
   std::size_t global_limit_ = 0, polish_limit_ = 0, search_limit_ = 0,
               local_limit_ = 0;  ///< numbers of points
   Evaluations evaluations_;      ///< of the least squares
   FitPoint local_start_;
-  FitPoint pass_start_;     ///< start of the least squares with the longest step
-  double last_step_ = 0.0;  ///< of the differences for the intervals
+  FitPoint pass_start_;     ///< start of the first of the least squares
   std::optional<LeastSquaresResult> local_;
   std::size_t restarts_ = 0;  ///< of the least squares, from better points that profiles met
   bool cancelled_ = false;    ///< whether a job was

@@ -20,6 +20,7 @@ struct LeastSquaresOptions {
   std::size_t max_evaluations = 500;  ///< no step begins beyond it; the derivatives of a step still do
   std::size_t max_iterations = 50;    ///< steps that are tried
   double step = 1e-4;                 ///< of the differences, as part of a parameter's range
+  std::vector<double> steps{};        ///< of each parameter; empty: step of all
   Differences differences = Differences::kForward;
   double function_tolerance = 1e-7;   ///< relative decrease of the sum of squares
   double parameter_tolerance = 1e-7;  ///< length of a step, relative to the ranges
