@@ -16,6 +16,7 @@ export function loadCharts() {
   return library;
 }
 
+const disposeMs = 1000;
 let warm = null;
 
 /// Loads ECharts and draws something small that nobody sees, once. A browser compiles code at its first use: done before
@@ -39,8 +40,8 @@ function drawUnseen(echarts) {
     series: [{ type: "line", name: "-", data: values.slice(0, 6) },
       { type: "heatmap", xAxisIndex: 1, yAxisIndex: 1, data: values }],
   }));
-  chart.getZr().flush();
-  chart.dispose();
+  // A frame that is still to be painted must not meet a chart that is gone.
+  chart.on("finished", () => setTimeout(() => chart.isDisposed() || chart.dispose(), disposeMs));
 }
 
 /// The parts of an option that all charts share.

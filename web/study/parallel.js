@@ -27,8 +27,9 @@ export function parallelChart(element, sweep, signal) {
     element.style.minWidth = `${left + right + leastGap * (layOut(sweep).columns.length - 1)}px`;
     const plan = planOf(sweep, element.clientWidth);
     shown = plan.shown;
-    sweep.help.textContent = "Drag along an axis to select jobs; click the axis to clear its selection. "
-      + noteOf(layOut(sweep));
+    // An optimisation has no help of its own.
+    sweep.help?.replaceChildren("Drag along an axis to select jobs; click the axis to clear its selection. ",
+      noteOf(layOut(sweep)));
     return plan.option;
   }, "Parallel coordinates of all jobs; the table below has the same numbers", signal);
   made.then(({ chart }) => chart.on("axisareaselected", () => {
