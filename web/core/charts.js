@@ -40,6 +40,7 @@ function drawUnseen(echarts) {
     series: [{ type: "line", name: "-", data: values.slice(0, 6) },
       { type: "heatmap", xAxisIndex: 1, yAxisIndex: 1, data: values }],
   }));
+  chart.getZr().flush();
   // A frame that is still to be painted must not meet a chart that is gone.
   chart.on("finished", () => setTimeout(() => chart.isDisposed() || chart.dispose(), disposeMs));
 }
