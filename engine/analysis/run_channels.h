@@ -58,7 +58,7 @@ class RunChannels {
   [[nodiscard]] Trajectory finish(double imbalance_scale);
 
  private:
-  /// Of a channel and the next one.
+  /// Extremes since the last sample, of a channel of least values and the next one.
   struct Extremes {
     std::size_t channel;
     SampleExtremes values{};

@@ -93,7 +93,8 @@ TEST(SampleExtremes, HoldThePeaksOfAnRpsup) {
     ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
     int with_peak = 0;
     for (const Sampled& quantity : find_sampled(run.trajectory)) {
-      const double extreme = check_bounds(quantity), peak = find_peak(quantity.key, metric_table(), run.metrics);
+      const double extreme = check_bounds(quantity);
+      const double peak = find_peak(quantity.key, metric_table(), run.metrics);
       if (std::isnan(peak)) continue;
       EXPECT_DOUBLE_EQ(extreme, peak) << quantity.key;
       ++with_peak;

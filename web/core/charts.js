@@ -19,8 +19,8 @@ export function loadCharts() {
 const disposeMs = 1000;
 let warm = null;
 
-/// Loads ECharts and draws something small that nobody sees, once. A browser compiles code at its first use: done before
-/// the data are there, this shortens the first charts by a tenth of a second.
+/// Loads ECharts and draws something small that nobody sees, once. A browser compiles code at its first use.
+/// Before the data are there, this shortens the first charts by a tenth of a second.
 export function warmUpCharts() {
   warm ??= loadCharts().then(drawUnseen).catch((error) => {
     warm = null;
@@ -36,7 +36,8 @@ function drawUnseen(echarts) {
     legend: {}, tooltip: {}, title: { text: "-" }, grid: [{}, {}],
     xAxis: [{ name: "-" }, { gridIndex: 1, type: "category", data: [..."012345"] }],
     yAxis: [{ name: "-" }, { gridIndex: 1, type: "category", data: [..."01234"] }],
-    visualMap: { min: 0, max: 30, calculable: true, dimension: 2, seriesIndex: 1, inRange: { color: ["#000", "#fff"] } },
+    visualMap: { min: 0, max: 30, calculable: true, dimension: 2, seriesIndex: 1,
+      inRange: { color: ["#000", "#fff"] } },
     series: [{ type: "line", name: "-", data: values.slice(0, 6) },
       { type: "heatmap", xAxisIndex: 1, yAxisIndex: 1, data: values }],
   }));

@@ -19,8 +19,9 @@ TEST(ChooseFreeMetric, LeavesOutWhatADrivePrescribes) {
 }
 
 TEST(ChooseFreeMetric, PrefersAnAcceleration) {
-  const ResultTable table{.columns = {"job_id", "state", "peak_crank_drive_n_m", "peak_rod_acceleration_m_s2"},
-                          .rows = {{"a", "succeeded", 1.0, 110.0}, {"b", "succeeded", 2.0, 120.0}}};
+  const ResultTable table{
+      .columns = {"job_id", "state", "peak_crank_drive_n_m", "peak_rod_acceleration_m_s2"},
+      .rows = {{"a", "succeeded", 1.0, 110.0}, {"b", "succeeded", 2.0, 120.0}}};
   EXPECT_EQ(choose_free_metric(table, {"crank"}), "peak_rod_acceleration_m_s2");
 }
 
