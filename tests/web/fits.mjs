@@ -81,13 +81,19 @@ test("a fit finds the clearance of a measurement", { timeout: 5 * minutes }, asy
   await picture(page, "fit_form", { fullPage: true });
   await variable.getByLabel("From").fill("0.1");
   await variable.getByLabel("To").fill("0.4");
+  // The end is told only with the answer, however late that comes.
+  await page.route(/\/v1\/fits\/fit_\w+$/, async (route) => {
+    await new Promise((resolve) => { setTimeout(resolve, 500); });
+    await route.continue();
+  });
   await page.getByRole("button", { name: "Submit" }).click();
   await page.waitForURL(/#\/fits\/fit_/);
   await page.getByText(/^(running: .*; [1-9]\d* points?$|succeeded)/).waitFor();
   await page.getByText(/^succeeded: 100 %/).waitFor({ timeout: 4 * minutes });
+  const row = page.getByRole("row").filter({ has: page.locator(".interval") });
+  assert.match(await row.getByRole("cell").nth(4).textContent(), /\d to \d/);
   const id = page.url().match(/fit_\w+/)[0];
   const fit = await ask(`/v1/fits/${id}`);
-  const row = page.getByRole("row").filter({ has: page.locator(".interval") });
   const found = Number(await row.getByRole("cell").nth(1).textContent());
   assert.ok(Math.abs(found / fit.parameters[0].value - 1) < 1e-4,
     `${found} instead of ${fit.parameters[0].value}`);

@@ -119,6 +119,23 @@ export function latest(run, signal) {
   };
 }
 
+/// A function that runs the given one after its earlier runs, so that no answer covers a newer one. Who calls while
+/// a call waits for its turn is given that one.
+/** @param {() => Promise<void>} run  @returns {() => Promise<void>} */
+export function inTurn(run) {
+  /** @type {Promise<void> | null} */
+  let waiting = null;
+  let running = Promise.resolve();
+  return () => {
+    waiting ??= running.then(() => {
+      waiting = null;
+      running = run();
+      return running;
+    });
+    return waiting;
+  };
+}
+
 /// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and
 /// always after the last call.
 /** @param {() => unknown} run  @param {number | (() => number)} milliseconds */

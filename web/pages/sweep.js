@@ -6,7 +6,7 @@ import { saveButtons, warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
-import { follow, isUnderWay, pause, persist, seldom } from "/core/live.js";
+import { follow, inTurn, isUnderWay, pause, persist, seldom } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, drawSummary } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
@@ -84,10 +84,8 @@ export class SweepPage {
   /** @type {HTMLButtonElement} */
   retry;
   reloadTook = 0;
-  /** @type {Promise<void>} */
-  reloading = Promise.resolve();
-  /** @type {Promise<void> | null} */
-  waiting = null;
+  reload = inTurn(() => this.load());
+  learnFailures = inTurn(() => this.tryLearnFailures());
 
   /**
    * @param {Api.Sweep} sweep
@@ -147,7 +145,7 @@ export class SweepPage {
 
   start() {
     this.drawTexts();
-    this.reloading = this.learnFailures();
+    this.learnFailures();
     drawChosen(this.chosen, this.selection);
     this.selection.addEventListener("change", () => this.changed());
     this.charts.make();
@@ -193,17 +191,6 @@ export class SweepPage {
     if (!this.signal.aborted && isUnderWay(this.sweep)) this.followIt();
   }
 
-  /// One after the other, so that no answer covers a newer one. Who asks while one waits for its turn is given that
-  /// one.
-  reload() {
-    this.waiting ??= this.reloading.then(() => {
-      this.waiting = null;
-      this.reloading = this.load();
-      return this.reloading;
-    });
-    return this.waiting;
-  }
-
   async load() {
     try {
       let start = 0;
@@ -221,7 +208,7 @@ export class SweepPage {
     await this.learnFailures();
   }
 
-  async learnFailures() {
+  async tryLearnFailures() {
     try {
       if (await this.failures.learn(this.sweep.id, this.rows, tell, this.signal)) this.drawTexts();
     } catch (error) {

@@ -3,7 +3,7 @@
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
-import { followStudy, seldom } from "/core/live.js";
+import { followStudy, inTurn, seldom } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const reloadMs = 1000;
@@ -123,13 +123,21 @@ export class StudyView {
     // What takes long is fetched seldom.
     const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
     followStudy(this.kind.api, this.study.id, {
-      progress: ({ state, counts, progress }) =>
-        { Object.assign(this.study, { state, counts, progress }); this.drawHead(); reload(); },
+      // The end is shown with its answer.
+      progress: ({ state, counts, progress }) => {
+        if (state === "running" && this.study.state === "running") {
+          Object.assign(this.study, { counts, progress });
+          this.drawHead();
+        }
+        reload();
+      },
       done: () => this.reload(),
     }, this.signal);
   }
 
-  async reload() {
+  reload = inTurn(() => this.load());
+
+  async load() {
     if (this.isRemoved) return;
     try {
       const start = performance.now();
