@@ -97,18 +97,27 @@ void LinkageQuantities::add_metric(QuantityInfo info, Result result) {
   results_.push_back(std::move(result));
 }
 
-std::size_t LinkageQuantities::add_load(std::string key, std::string help, double scale, Reading read) {
+std::size_t LinkageQuantities::add_load(const std::string& stem, const std::string& unit, std::string help,
+                                        double scale, Reading read) {
   const std::size_t load = measured_.loads.size();
   measured_.loads.push_back(std::move(read));
-  add_metric({.key = std::move(key), .help = std::move(help)},
-             [=](const RunMetrics& metrics, const auto&) { return scale * metrics.largest_load(load); });
+  add_peak(stem, unit, std::move(help), scale,
+           [load](const RunMetrics& metrics) { return metrics.load_peak(load); });
   return load;
+}
+
+void LinkageQuantities::add_peak(const std::string& stem, const std::string& unit, std::string help,
+                                 double scale, const std::function<Peak(const RunMetrics&)>& find) {
+  add_metric({.key = stem + unit, .help = std::move(help)},
+             [=](const RunMetrics& metrics, const auto&) { return scale * find(metrics).magnitude; });
+  add_metric({.key = stem + "_time_s", .help = "Time of " + stem + unit},
+             [=](const RunMetrics& metrics, const auto&) { return time_of(find(metrics)); });
 }
 
 void LinkageQuantities::add_sampled_load(const std::string& stem, const std::string& unit, std::string help,
                                          std::string peak_help, const Reading& read) {
   add_channel(stem + unit, std::move(help), read);
-  const std::size_t load = add_load("peak_" + stem + unit, std::move(peak_help), 1.0, read);
+  const std::size_t load = add_load("peak_" + stem, unit, std::move(peak_help), 1.0, read);
   add_extremes(stem, unit, read, Channel::Kind::kLeastLoad, load);
 }
 
@@ -134,20 +143,16 @@ void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex
   const std::size_t k = measured_.accelerations.size();
   measured_.accelerations.push_back(i);
   const std::string name = freedom.name + "_acceleration";
-  add_metric({.key = "peak_" + name + unit + "_s2",
-              .help = "Largest magnitude of the coordinate's acceleration in the steady window (t ≥ "
-                      "run_up_s), sought inside every integration step"},
-             [k](const RunMetrics& metrics, const auto&) {
-               return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.magnitude : kNoValue;
-             });
-  add_metric({.key = "peak_" + name + "_time_s", .help = "Time of peak_" + name + unit + "_s2"},
-             [k](const RunMetrics& metrics, const auto&) {
-               return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady.t : kNoValue;
-             });
-  add_metric(
-      {.key = "peak_" + name + "_whole_run" + unit + "_s2",
-       .help = "Largest magnitude of the coordinate's acceleration in the whole run"},
-      [k](const RunMetrics& metrics, const auto&) { return metrics.acceleration(k).whole_run.magnitude; });
+  add_peak("peak_" + name, unit + "_s2",
+           "Largest magnitude of the coordinate's acceleration in the steady window (t ≥ run_up_s), sought "
+           "inside every integration step",
+           1.0, [k](const RunMetrics& metrics) {
+             return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady
+                                                : Peak{.magnitude = kNoValue, .t = kNoValue};
+           });
+  add_peak("peak_" + name + "_whole_run", unit + "_s2",
+           "Largest magnitude of the coordinate's acceleration in the whole run", 1.0,
+           [k](const RunMetrics& metrics) { return metrics.acceleration(k).whole_run; });
   add_metric(
       {.key = "rms_" + name + unit + "_s2",
        .help = "Root mean square of the coordinate's acceleration in the steady window (t ≥ run_up_s)"},
@@ -203,7 +208,7 @@ void LinkageQuantities::add_motor(const std::string& name, const ActuatorReading
   add_channel(name + "_voltage_v", "Voltage of the motor's supply", motor.voltage);
   add_channel(name + "_electric_work_j", "Electric work of the motor's supply since t = 0",
               motor.electric_work);
-  add_load("peak_" + name + "_electric_work_j",
+  add_load("peak_" + name + "_electric_work", "_j",
            "Largest magnitude of the electric work of the motor's supply since t = 0", 1.0,
            motor.electric_work);
 }
@@ -279,7 +284,7 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
                    "Sum of the magnitudes of the friction forces on the journal",
                    "Largest sum of the magnitudes of the friction forces on the journal in the whole run",
                    [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
-  add_load("max_" + joint.name + "_penetration_um",
+  add_load("max_" + joint.name + "_penetration", "_um",
            "Largest radial penetration of the journal into the bore in the whole run", 1e6,
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
   add_contact_time(joint.name + "_contact_time_ratio",

@@ -58,10 +58,14 @@ class LinkageQuantities {
   void add_energy_channels();
   void add_run_metrics();
   void add_channel(std::string key, std::string help, Reading read);
-  /// Adds a load without channel, and the metric of its largest magnitude.
-  std::size_t add_load(std::string key, std::string help, double scale, Reading read);
+  /// Adds the metrics of a peak, STEM and UNIT in one word, and of its time.
+  void add_peak(const std::string& stem, const std::string& unit, std::string help, double scale,
+                const std::function<Peak(const RunMetrics&)>& find);
+  /// Adds a load without channel, and the metrics of its peak.
+  std::size_t add_load(const std::string& stem, const std::string& unit, std::string help, double scale,
+                       Reading read);
   /// Adds a load with its channel STEM and UNIT in one word, those of its extremes between samples, and the
-  /// metric of its largest magnitude.
+  /// metrics of its peak.
   void add_sampled_load(const std::string& stem, const std::string& unit, std::string help,
                         std::string peak_help, const Reading& read);
   void add_extremes(const std::string& stem, const std::string& unit, const Reading& read,

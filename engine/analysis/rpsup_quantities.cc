@@ -34,10 +34,6 @@ enum class Load : std::size_t {
   kRodCurrent,
 };
 
-double largest(const RunMetrics& metrics, Load load) {
-  return metrics.largest_load(static_cast<std::size_t>(load));
-}
-
 /// The readings of an actuated coordinate's actuator; of a driven one only the drive's force.
 ActuatorReadings drive_readings(const Mechanism& mechanism, FrameIndex coordinate) {
   std::vector<ActuatorReadings> actuators = find_actuator_readings(mechanism, coordinate);
@@ -220,21 +216,26 @@ std::span<const QuantityInfo> metric_table() {
       {.key = "peak_slider_acceleration_time_s", .help = "Time of peak_slider_acceleration_m_s2"},
       {.key = "peak_slider_acceleration_whole_run_m_s2",
        .help = "Largest magnitude of the slider's acceleration in the whole run"},
+      {.key = "peak_slider_acceleration_whole_run_time_s",
+       .help = "Time of peak_slider_acceleration_whole_run_m_s2"},
       {.key = "rms_slider_acceleration_m_s2",
        .help = "Root mean square of the slider's acceleration in the steady window (t ≥ run_up_s)"},
       {.key = "ideal_peak_slider_acceleration_m_s2",
        .help = "Largest magnitude of the slider's acceleration in the steady window, of the ideal linkage "
                "(rigid links, no clearance) with the same drives"},
+      {.key = "ideal_peak_slider_acceleration_time_s", .help = "Time of ideal_peak_slider_acceleration_m_s2"},
       {.key = "amplification",
        .help = "Ratio of peak_slider_acceleration_m_s2 to ideal_peak_slider_acceleration_m_s2"},
       {.key = "peak_contact_force_n",
        .help =
            "Largest sum of the radial normal forces on the journal in the whole run; null without clearance",
        .symbol = "max Σ f_n"},
+      {.key = "peak_contact_force_time_s", .help = "Time of peak_contact_force_n"},
       {.key = "max_penetration_um",
        .help =
            "Largest radial penetration of the journal into the bore in the whole run; null without clearance",
        .symbol = "max Δ"},
+      {.key = "max_penetration_time_s", .help = "Time of max_penetration_um"},
       {.key = "impact_count",
        .help = "Number of onsets of radial contact in the whole run, counted for each ring of the journal",
        .integer = true},
@@ -242,8 +243,10 @@ std::span<const QuantityInfo> metric_table() {
        .help = "Fraction of the whole run in which the journal touches the bore; null without clearance"},
       {.key = "peak_crank_torque_n_m",
        .help = "Largest magnitude of the crank's driving torque in the whole run"},
+      {.key = "peak_crank_torque_time_s", .help = "Time of peak_crank_torque_n_m"},
       {.key = "peak_rod_force_n",
        .help = "Largest magnitude of the telescoping rod's driving force in the whole run"},
+      {.key = "peak_rod_force_time_s", .help = "Time of peak_rod_force_n"},
       {.key = "mean_crank_velocity_rad_s",
        .help = "Mean angular velocity of the crank in the steady window (t ≥ run_up_s); null unless an "
                "actuator moves the crank"},
@@ -253,10 +256,13 @@ std::span<const QuantityInfo> metric_table() {
                "moves the crank"},
       {.key = "peak_crank_current_a",
        .help = "Largest magnitude of the current of the crank's motor in the whole run; null without motor"},
+      {.key = "peak_crank_current_time_s", .help = "Time of peak_crank_current_a"},
       {.key = "peak_crank_electric_work_j",
        .help = "Largest magnitude of the electric work of the crank's motor since t = 0; null without motor"},
+      {.key = "peak_crank_electric_work_time_s", .help = "Time of peak_crank_electric_work_j"},
       {.key = "peak_joint_reaction_n",
        .help = "Largest magnitude of the force between coupler and cross link in the whole run"},
+      {.key = "peak_joint_reaction_time_s", .help = "Time of peak_joint_reaction_n"},
       {.key = "friction_work_j", .help = "Energy lost to friction in the joint in the whole run"},
       {.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
       {.key = "structural_loss_j",
@@ -325,24 +331,34 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
       parameters.crank_actuator && std::holds_alternative<DcMotor>(*parameters.crank_actuator);
   const double ideal_peak = ideal ? ideal->magnitude : kNoValue;
   const RunMetrics::Acceleration& slider = metrics.acceleration(0);
+  const auto peak = [&metrics](Load load) { return metrics.load_peak(static_cast<std::size_t>(load)); };
   return {
       has_steady ? slider.steady.magnitude : kNoValue,
-      has_steady ? slider.steady.t : kNoValue,
+      has_steady ? time_of(slider.steady) : kNoValue,
       slider.whole_run.magnitude,
+      time_of(slider.whole_run),
       metrics.calc_rms(0),
       ideal_peak,
+      ideal ? time_of(*ideal) : kNoValue,
       has_steady && ideal_peak > 0.0 ? slider.steady.magnitude / ideal_peak : kNoValue,
-      has_clearance ? largest(metrics, Load::kContactForce) : kNoValue,
-      has_clearance ? 1e6 * largest(metrics, Load::kPenetration) : kNoValue,
+      has_clearance ? peak(Load::kContactForce).magnitude : kNoValue,
+      has_clearance ? time_of(peak(Load::kContactForce)) : kNoValue,
+      has_clearance ? 1e6 * peak(Load::kPenetration).magnitude : kNoValue,
+      has_clearance ? time_of(peak(Load::kPenetration)) : kNoValue,
       static_cast<double>(metrics.onsets()),
       has_clearance ? metrics.contact_time(0) / outcome.t : kNoValue,
-      largest(metrics, Load::kCrankTorque),
-      largest(metrics, Load::kRodForce),
+      peak(Load::kCrankTorque).magnitude,
+      time_of(peak(Load::kCrankTorque)),
+      peak(Load::kRodForce).magnitude,
+      time_of(peak(Load::kRodForce)),
       parameters.crank_actuator ? metrics.calc_mean_velocity(0) : kNoValue,
       parameters.crank_actuator ? metrics.calc_speed_fluctuation(0) : kNoValue,
-      has_motor ? largest(metrics, Load::kCrankCurrent) : kNoValue,
-      has_motor ? largest(metrics, Load::kCrankElectricWork) : kNoValue,
-      largest(metrics, Load::kReaction),
+      has_motor ? peak(Load::kCrankCurrent).magnitude : kNoValue,
+      has_motor ? time_of(peak(Load::kCrankCurrent)) : kNoValue,
+      has_motor ? peak(Load::kCrankElectricWork).magnitude : kNoValue,
+      has_motor ? time_of(peak(Load::kCrankElectricWork)) : kNoValue,
+      peak(Load::kReaction).magnitude,
+      time_of(peak(Load::kReaction)),
       metrics.last_energy().friction_loss,
       metrics.last_energy().impact_loss,
       metrics.last_energy().structural_loss,

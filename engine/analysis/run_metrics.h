@@ -66,7 +66,7 @@ class RunMetrics {
   /// Measured::loads, with their values in the last step.
   [[nodiscard]] std::span<const SteppedPeak> loads() const { return loads_; }
   /// Largest magnitude of one of Measured::loads.
-  [[nodiscard]] double largest_load(std::size_t k) const { return loads_[k].peak().magnitude; }
+  [[nodiscard]] const Peak& load_peak(std::size_t k) const { return loads_[k].peak(); }
   /// Time in which one of Measured::contacts touched, [s]
   [[nodiscard]] double contact_time(std::size_t k) const { return contact_times_[k]; }
   /// Onsets of radial contact, of each ring.

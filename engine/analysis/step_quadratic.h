@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 namespace engine {
 
@@ -55,5 +56,10 @@ struct Peak {
     for (const double s : {from, a.find_extremum(from, to), to}) take(a.value(s), t0 + s * dt);
   }
 };
+
+/// Time of a peak, [s]; not a number if the quantity was 0 throughout.
+[[nodiscard]] inline double time_of(const Peak& peak) {
+  return peak.magnitude > 0.0 ? peak.t : std::numeric_limits<double>::quiet_NaN();
+}
 
 }  // namespace engine

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,8 +58,14 @@ double check_bounds(const Sampled& quantity) {
   return std::max(magnitude_of(quantity.least), magnitude_of(quantity.largest));
 }
 
-/// The metric of a quantity's largest magnitude in the whole run; not a number without one.
-double find_peak(std::string key, std::span<const QuantityInfo> table, const std::vector<double>& metrics) {
+/// The metrics of a quantity's largest magnitude in the whole run, which follow each other.
+struct PeakMetrics {
+  double magnitude, time;
+};
+
+/// @returns none without such metrics
+std::optional<PeakMetrics> find_peak(std::string key, std::span<const QuantityInfo> table,
+                                     const std::vector<double>& metrics) {
   for (const std::string_view unit : {"_m_s2", "_rad_s2"}) {
     const std::size_t end = key.size() - std::min(key.size(), unit.size());
     if (!key.ends_with(unit) || key.ends_with("accelerometer_m_s2")) continue;
@@ -67,8 +74,54 @@ double find_peak(std::string key, std::span<const QuantityInfo> table, const std
     break;
   }
   for (std::size_t k = 0; k < table.size(); ++k)
-    if (table[k].key == "peak_" + key) return metrics[k];
-  return kNoValue;
+    if (table[k].key == "peak_" + key) return PeakMetrics{metrics[k], metrics[k + 1]};
+  return std::nullopt;
+}
+
+/// The peak lies in an interval between samples whose extreme has its magnitude.
+void check_time(const Sampled& quantity, const std::vector<double>& t, const PeakMetrics& peak) {
+  const auto later = std::ranges::lower_bound(t, peak.time);
+  ASSERT_NE(later, t.end()) << quantity.key;
+  const auto k = static_cast<std::size_t>(later - t.begin());
+  EXPECT_DOUBLE_EQ(std::max(std::abs(quantity.least[k]), std::abs(quantity.largest[k])), peak.magnitude)
+      << quantity.key << " at " << peak.time << " s";
+}
+
+/// Each metric of a largest magnitude is followed by the one of its time.
+void check_times_follow(std::span<const QuantityInfo> table) {
+  int peaks = 0;
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const std::string& key = table[k].key;
+    const bool is_peak = key.starts_with("peak_") || key.starts_with("max_") || key.starts_with("ideal_peak_");
+    if (!is_peak || key.ends_with("_time_s")) continue;
+    ASSERT_LT(k + 1, table.size()) << key;
+    EXPECT_TRUE(table[k + 1].key.ends_with("_time_s")) << key;
+    EXPECT_EQ(table[k + 1].help, "Time of " + key);
+    ++peaks;
+  }
+  EXPECT_GT(peaks, 5);
+}
+
+TEST(PeakMetrics, AreFollowedByTheirTimes) {
+  check_times_follow(metric_table());
+  check_times_follow(linkage_tables(make_loose_loops({})).metrics);
+}
+
+// An ideal joint has no contact, and a prescribed crank no current.
+TEST(PeakMetrics, HaveNoTimeWithoutAPeak) {
+  RpsupParameters ideal;
+  ideal.c_r = 0.0;
+  const RunResult run = simulate_rpsup(ideal, {.duration = 0.1}, {});
+  ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
+  const auto table = metric_table();
+  int without = 0;
+  for (std::size_t k = 0; k + 1 < table.size(); ++k) {
+    if (!table[k + 1].key.ends_with("_time_s")) continue;
+    const bool has_time = !std::isnan(run.metrics[k + 1]);
+    EXPECT_EQ(has_time, run.metrics[k] > 0.0) << table[k].key;
+    if (!has_time) ++without;
+  }
+  EXPECT_GE(without, 4);
 }
 
 TEST(SampleExtremes, TakesEndsSamplesAndTheCurveInsideAPart) {
@@ -94,12 +147,13 @@ TEST(SampleExtremes, HoldThePeaksOfAnRpsup) {
     int with_peak = 0;
     for (const Sampled& quantity : find_sampled(run.trajectory)) {
       const double extreme = check_bounds(quantity);
-      const double peak = find_peak(quantity.key, metric_table(), run.metrics);
-      if (std::isnan(peak)) continue;
-      EXPECT_DOUBLE_EQ(extreme, peak) << quantity.key;
+      const auto peak = find_peak(quantity.key, metric_table(), run.metrics);
+      if (!peak || std::isnan(peak->magnitude)) continue;
+      EXPECT_DOUBLE_EQ(extreme, peak->magnitude) << quantity.key;
+      check_time(quantity, run.trajectory.columns[0], *peak);
       ++with_peak;
       if (rate < 1e3) {
-        EXPECT_LT(magnitude_of(quantity.values), 0.95 * peak) << quantity.key;
+        EXPECT_LT(magnitude_of(quantity.values), 0.95 * peak->magnitude) << quantity.key;
       }
     }
     EXPECT_EQ(with_peak, 5);  // acceleration, contact, torque, force, reaction
@@ -129,8 +183,12 @@ TEST(SampleExtremes, HoldThePeaksOfADescribedLinkage) {
   const std::vector<QuantityInfo> metrics = linkage_tables(linkage).metrics;
   const std::vector<Sampled> quantities = find_sampled(run.trajectory);
   EXPECT_GT(quantities.size(), 10U);
-  for (const Sampled& quantity : quantities)
-    EXPECT_DOUBLE_EQ(check_bounds(quantity), find_peak(quantity.key, metrics, run.metrics)) << quantity.key;
+  for (const Sampled& quantity : quantities) {
+    const auto peak = find_peak(quantity.key, metrics, run.metrics);
+    ASSERT_TRUE(peak) << quantity.key;
+    EXPECT_DOUBLE_EQ(check_bounds(quantity), peak->magnitude) << quantity.key;
+    check_time(quantity, run.trajectory.columns[0], *peak);
+  }
 }
 
 }  // namespace
