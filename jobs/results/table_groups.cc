@@ -39,6 +39,9 @@ bool varies(const ResultTable& table, std::size_t column) {
   return least && *most - *least > 1e-9 * std::max(std::abs(*least), std::abs(*most));
 }
 
+/// Of a peak.
+bool is_time(std::string_view metric) { return metric.ends_with("_time_s"); }
+
 }  // namespace
 
 std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer) {
@@ -82,8 +85,8 @@ std::string choose_free_metric(const ResultTable& table, const std::vector<std::
     const auto is_of = [&](const std::string& coordinate) {
       return metric.find("_" + coordinate + "_acceleration") != std::string_view::npos;
     };
-    if (std::ranges::none_of(driven, is_of) && varies(table, find_column(table, std::string(metric), "")))
-      free.emplace_back(metric);
+    if (is_time(metric) || std::ranges::any_of(driven, is_of)) continue;
+    if (varies(table, find_column(table, std::string(metric), ""))) free.emplace_back(metric);
   }
   const auto acceleration = std::ranges::find_if(
       free, [](const std::string& metric) { return metric.find("_acceleration_") != std::string::npos; });
@@ -96,10 +99,12 @@ std::vector<std::string> choose_metrics(const ResultTable& table, std::span<cons
   const auto has = [&](std::string_view metric) {
     return std::ranges::find(metrics, metric) != metrics.end();
   };
-  if (!has(wanted.front()))
-    return {metrics.begin(),
-            metrics.begin() + static_cast<std::ptrdiff_t>(std::min(metrics.size(), wanted.size()))};
   std::vector<std::string> chosen;
+  if (!has(wanted.front())) {
+    for (const std::string_view metric : metrics)
+      if (!is_time(metric) && chosen.size() < wanted.size()) chosen.emplace_back(metric);
+    return chosen;
+  }
   for (const std::string_view metric : wanted) {
     if (has(metric)) chosen.emplace_back(metric);
   }

@@ -34,13 +34,13 @@ struct RowGroup {
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
 
 /// The peak of the slider's acceleration; of other linkages the first acceleration whose values differ and
-/// that no drive prescribes, else the first such metric, else the first one.
+/// that no drive prescribes, else the first such metric that is no peak's time, else the first one.
 /// @param driven  coordinates that move by a law
 [[nodiscard]] std::string choose_free_metric(const ResultTable& table,
                                              const std::vector<std::string>& driven);
 
 /// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
-/// first ones, as many at most.
+/// first ones but times of peaks, as many at most.
 [[nodiscard]] std::vector<std::string> choose_metrics(const ResultTable& table,
                                                       std::span<const std::string_view> wanted);
 

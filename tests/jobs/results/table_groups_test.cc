@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/results/table_groups.h"
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace {
 
 using jobs::choose_free_metric;
+using jobs::choose_metrics;
 using jobs::ResultTable;
 
 TEST(ChooseFreeMetric, LeavesOutWhatADrivePrescribes) {
@@ -23,6 +28,17 @@ TEST(ChooseFreeMetric, PrefersAnAcceleration) {
       .columns = {"job_id", "state", "peak_crank_drive_n_m", "peak_rod_acceleration_m_s2"},
       .rows = {{"a", "succeeded", 1.0, 110.0}, {"b", "succeeded", 2.0, 120.0}}};
   EXPECT_EQ(choose_free_metric(table, {"crank"}), "peak_rod_acceleration_m_s2");
+}
+
+TEST(ChooseFreeMetric, IsNoTime) {
+  const ResultTable table{
+      .columns = {"job_id", "state", "peak_rod_acceleration_m_s2", "peak_rod_acceleration_time_s",
+                  "peak_rod_reaction_n"},
+      .rows = {{"a", "succeeded", 1.0, 0.5, 3.0}, {"b", "succeeded", 1.0, 0.6, 4.0}}};
+  EXPECT_EQ(choose_free_metric(table, {}), "peak_rod_reaction_n");
+  const std::vector<std::string> own{"peak_rod_acceleration_m_s2", "peak_rod_reaction_n"};
+  const std::vector<std::string_view> wanted{"peak_slider_acceleration_m_s2", "impact_count", "steps"};
+  EXPECT_EQ(choose_metrics(table, wanted), own);
 }
 
 TEST(ChooseFreeMetric, IsTheFirstOneIfNoneVaries) {

@@ -343,6 +343,21 @@ TEST(Report, ShowsTheChosenMetricAndAxisAndAllRows) {
     EXPECT_EQ(bench.call("GET", path, "", {{key, value}}).status, 422) << key;
 }
 
+TEST(Report, TellsTheTimeOfEachPeak) {
+  Bench bench;
+  const std::string path =
+      "/v1/sweeps/" + bench.run(R"({"sweep": {"clearance_mm": [0.1, 0.2]}})") + "/report";
+  const auto table = engine::metric_table();
+  for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+    const std::string& peak = table[i].key;
+    if (!table[i + 1].key.ends_with("_time_s")) continue;
+    const std::string page = bench.call("GET", path, "", {{"metric", peak}}).body;
+    const std::string time = std::to_string(100 * (i + 1)) + ".2";
+    EXPECT_NE(page.find(" at " + time + " s of the run"), std::string::npos) << peak;
+    EXPECT_NE(page.find("Time [s]"), std::string::npos) << peak;
+  }
+}
+
 TEST(Report, CountsFailuresByTheirReasons) {
   Bench bench([](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
     engine::RunResult result = server_tests::known_run(spec, stop);
