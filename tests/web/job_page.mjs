@@ -156,9 +156,10 @@ test("plots tell the peaks that lie between their samples, and are saved with th
   const { id, metrics } = await computedJob();
   const page = await visit(`#/jobs/${id}`);
   const peak = (key) => String(Number(metrics[key].toPrecision(5)));
-  await page.getByText(`Peak magnitude: ${peak("peak_contact_force_n")} N. Peaks include values between the samples, which the curve joins at 1000 Hz.`).waitFor();
-  await page.getByText(`Peak magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m; Rod force ${peak("peak_rod_force_n")} N.`).waitFor();
-  await page.getByText(`${peak("peak_slider_acceleration_whole_run_m_s2")} m/s² in the whole run.`).waitFor();
+  const at = (key) => `at ${Number(metrics[key].toPrecision(6))} s`;
+  await page.getByText(`Peak magnitude: ${peak("peak_contact_force_n")} N ${at("peak_contact_force_time_s")}. Peaks include values between the samples, which the curve joins at 1000 Hz.`).waitFor();
+  await page.getByText(`Peak magnitude: Crank torque ${peak("peak_crank_torque_n_m")} N m ${at("peak_crank_torque_time_s")}; Rod force ${peak("peak_rod_force_n")} N ${at("peak_rod_force_time_s")}.`).waitFor();
+  await page.getByText(`${at("peak_slider_acceleration_time_s")} from run_up_s on, ${peak("peak_slider_acceleration_whole_run_m_s2")} m/s² ${at("peak_slider_acceleration_whole_run_time_s")} in the whole run.`).waitFor();
   const card = page.locator(".card", { has: page.getByRole("heading", { name: "Drive torque and force" }) });
   const canvas = card.locator(".uplot canvas");
   const saved = async () => {
@@ -281,7 +282,8 @@ test("a run without a steady part has a peak all the same", async () => {
   assert.equal(metrics.peak_slider_acceleration_m_s2, null);
   const page = await visit(`#/jobs/${id}`);
   const whole = String(Number(metrics.peak_slider_acceleration_whole_run_m_s2.toPrecision(5)));
-  await page.getByText(`Peak magnitude: ${whole} m/s² in the whole run. Peaks include`).waitFor();
+  const at = String(Number(metrics.peak_slider_acceleration_whole_run_time_s.toPrecision(6)));
+  await page.getByText(`Peak magnitude: ${whole} m/s² at ${at} s in the whole run. Peaks include`).waitFor();
   await leave(page);
 });
 

@@ -39,14 +39,23 @@ export function unitOf(column) {
   return suffixes.find(([suffix]) => column.endsWith(suffix))?.[1] ?? "";
 }
 
+/** @param {string} column */
+const withoutUnit = (column) => {
+  const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
+  return column.slice(0, column.length - suffix.length);
+};
+
+/// The metric of a peak's time: peak_x_time_s of peak_x_m_s2.
+/** @param {string} peak */
+export const timeMetricOf = (peak) => `${withoutUnit(peak)}_time_s`;
+
 const insideLinkage = /^linkage\.((bodies|joints|springs|loads|accelerometers)\.)?/;
 
 /// "peak_slider_acceleration_m_s2" as "Peak slider acceleration",
 /// "linkage.joints.crank.drive.velocity_rad_s" as "Crank drive velocity".
 /** @param {string} column */
 export function nameOf(column) {
-  const suffix = suffixes.find(([ending]) => column.endsWith(ending))?.[0] ?? "";
-  const words = column.slice(0, column.length - suffix.length).replace(/^links\.([^.]+)\./, "link ($1) ")
+  const words = withoutUnit(column).replace(/^links\.([^.]+)\./, "link ($1) ")
     // "clearance.clearance_mm" is one word, too.
     .replace(insideLinkage, "").replaceAll(/[_.]/g, " ").replace(/\b([a-z]+) \1$/, "$1").trim();
   return words.charAt(0).toUpperCase() + words.slice(1);

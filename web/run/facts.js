@@ -1,23 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of a job: metrics, losses, provenance, parameters.
 import { h } from "/core/dom.js";
-import { exact, nameOf, number, span, titleOf, unitOf } from "/core/format.js";
+import { exact, nameOf, number, span, timeMetricOf, titleOf, unitOf } from "/core/format.js";
 import { term } from "/core/quantities.js";
 import { variedInside } from "/run/described.js";
 import { labelsOf } from "/run/labels.js";
 
+/// Peaks stand with their times.
 /** @param {Api.Job[]} jobs */
 export function metricsCard(jobs) {
-  const names = Object.keys(jobs[0].metrics ?? {});
+  const all = Object.keys(jobs[0].metrics ?? {});
+  const times = new Set(all.map(timeMetricOf));
+  const names = all.filter((name) => !times.has(name));
   const labels = labelsOf(jobs);
   const head = h("tr", {}, h("th", { scope: "col" }, "Metric"),
-    labels.map((_, index) => h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index])),
+    labels.map((_, index) => h("th", { scope: "colgroup", class: "number", colspan: 2 },
+      jobs.length === 1 ? "Value" : labels[index])),
     h("th", { scope: "col" }, "Unit"));
   return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"),
     h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
     names.map((name) => h("tr", {}, h("td", {}, term("metrics", name, nameOf(name))),
-      jobs.map((job) => h("td", { class: "number" }, number(job.metrics?.[name], 5))), h("td", {}, unitOf(name)))))),
+      jobs.flatMap((job) => [h("td", { class: "number" }, number(job.metrics?.[name], 5)),
+        h("td", { class: "quiet" }, atTime(job, name))]), h("td", {}, unitOf(name)))))),
       whyMissing(jobs));
+}
+
+/** @param {Api.Job} job  @param {string} metric */
+function atTime({ metrics }, metric) {
+  const time = metrics?.[timeMetricOf(metric)];
+  return typeof time === "number" ? `at ${number(time, 5)} s` : "";
 }
 
 /// A dash without a word would look like a fault.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Peaks of curves, from the metrics: these are found inside the integration's steps, curves join samples.
-import { nameOfChannel, number, unitOf } from "/core/format.js";
+import { nameOfChannel, number, timeMetricOf, unitOf } from "/core/format.js";
 import { labelsOf } from "/run/labels.js";
 
 const unitOfAcceleration = /_((m|rad)_s2)$/;
@@ -17,34 +17,28 @@ const namesOf = (channel) => [channel, channel.replace(unitOfAcceleration, "_acc
 function peakOf({ metrics }, channel) {
   const names = namesOf(channel);
   const isKnown = (name) => typeof metrics?.[name] === "number";
-  const textOf = (name) => `${number(metrics?.[name], digits)} ${unitOf(channel)}`;
+  const textOf = (name) => `${number(metrics?.[name], digits)} ${unitOf(channel)}${timeText(metrics, name)}`;
   const key = names.find(isKnown);
-  if (key) return unitOfAcceleration.test(key) ? `${textOf(key)}${steadyText(metrics, key)}` : textOf(key);
-  // A run that ends before its steady part has only this one.
-  const whole = names.map(wholeRunOf).find(isKnown);
-  return whole ? `${textOf(whole)} in the whole run` : null;
+  // Accelerations count from run_up_s on. A run that ends before has only the other.
+  const whole = names.map(wholeRunOf).find((name) => name !== key && isKnown(name));
+  const texts = [key && `${textOf(key)}${whole ? " from run_up_s on" : ""}`, whole && `${textOf(whole)} in the whole run`];
+  return texts.filter(Boolean).join(", ") || null;
 }
 
-/// Time of an acceleration's peak from run_up_s on; undefined if there is none.
+/// Time of a channel's peak, of an acceleration from run_up_s on; undefined if there is none.
 /** @param {Api.Job} job  @param {string} channel  @returns {number | undefined} */
 export function peakTime({ metrics }, channel) {
   /** @type {Record<string, unknown>} */
   const known = metrics ?? {};
-  const time = namesOf(channel).map((name) => known[timeOf(name)]).find((each) => typeof each === "number");
+  const time = namesOf(channel).map((name) => known[timeMetricOf(name)]).find((each) => typeof each === "number");
   return typeof time === "number" ? time : undefined;
 }
 
-/** @type {(metric: string) => string} */
-const timeOf = (metric) => metric.replace(unitOfAcceleration, "_time_s");
-
 const wholeRunOf = (key) => key.replace(unitOfAcceleration, "_whole_run_$1");
 
-/// Accelerations count from run_up_s on; of some it is known when that was.
-function steadyText(metrics, key) {
-  const at = metrics[timeOf(key)];
-  const whole = metrics[wholeRunOf(key)];
-  return `${typeof at === "number" ? ` at ${number(at, 6)} s` : ""} from run_up_s `
-    + `on, ${number(whole, digits)} ${unitOf(key)} in the whole run`;
+function timeText(metrics, key) {
+  const time = metrics[timeMetricOf(key)];
+  return typeof time === "number" ? ` at ${number(time, 6)} s` : "";
 }
 
 /// The peaks of what a plot shows, for below it; empty if the metrics have none.

@@ -3,12 +3,15 @@
 
 const notMetrics = new Set(["job_id", "state", "replicate", "replicates"]);
 
-/// The columns of the rows that are numbers of the result.
+/** @type {(metric: string) => boolean} */
+const isTime = (metric) => metric.endsWith("_time_s");
+
+/// The columns of the rows that are numbers of the result, times of peaks behind the others.
 /** @param {Api.Row[]} rows  @param {string[]} axes */
 export function metricsOf(rows, axes) {
   const columns = new Set(rows.slice(0, 50).flatMap((row) => Object.keys(row)));
   return [...columns].filter((column) => !notMetrics.has(column) && !column.startsWith("replicates_")
-    && !axes.includes(column));
+    && !axes.includes(column)).sort((a, b) => Number(isTime(a)) - Number(isTime(b)));
 }
 
 /// The metric that a page shows first: of a described linkage the first acceleration that no drive prescribes and that
@@ -18,7 +21,7 @@ export function usualMetric(metrics, rows, { request }) {
   const linkage = request?.parameters?.linkage;
   if (typeof linkage !== "object") return metrics[0];
   const free = metrics.filter((metric) => !drivenCoordinates(linkage).some((name) => metric.includes(`_${name}_accel`)));
-  const varying = free.filter((metric) => varies(rows, metric));
+  const varying = free.filter((metric) => !isTime(metric) && varies(rows, metric));
   return varying.find((metric) => metric.includes("_acceleration_")) ?? varying[0] ?? free[0] ?? metrics[0];
 }
 

@@ -2,7 +2,7 @@
 // Sentences on a sweep: its largest and least value with their parameters, failures, and the scatter of
 // replicates.
 import { h } from "/core/dom.js";
-import { nameOf, number, plural, unitOf } from "/core/format.js";
+import { nameOf, number, plural, timeMetricOf, unitOf } from "/core/format.js";
 import { term } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
 import { none, valueOf } from "/study/data.js";
@@ -23,11 +23,11 @@ function settingOf(row, axes) {
 /** @param {Api.Row} row */
 const linkTo = ({ job_id: id }) => h("a", { class: "unbroken", href: routeTo("jobs", id) }, `job …${id.slice(-5)}`);
 
-/// Time of a value, where the job tells one: of peak_x_m_s2 in peak_x_time_s.
+/// Time of a value, where the job tells one.
 /** @param {Api.Row} row  @param {string} metric */
 function timeOf(row, metric) {
-  const column = Object.keys(row).find((name) => nameOf(name) === `${nameOf(metric)} time`);
-  return column && typeof row[column] === "number" ? ` at ${number(row[column])} s of the run` : "";
+  const time = row[timeMetricOf(metric)];
+  return typeof time === "number" ? ` at ${number(time)} s of the run` : "";
 }
 
 /** @param {string} word  @param {Api.Row} row  @param {Api.Row[]} all  @param {SweepPage} sweep */
