@@ -100,6 +100,7 @@ RPSUP_TOKEN=$secret expect_code 0 "$rpsup" --config address.ini status
 # The arguments of a client that runs do not hold the token, and its user is warned.
 sweep=$(RPSUP_URL=$url RPSUP_TOKEN=$secret "$rpsup" submit - <<<'{"parameters": {"duration_s": 500}, "sweep": {"clearance_mm": [0.3]}}')
 for form in "--token $secret" "--token=$secret"; do
+  : >watched  # what the last one wrote is not of this one
   # shellcheck disable=SC2086  # an option with its value
   "$rpsup" watch "$sweep" --url "$url" $form 2>watched &
   watcher=$!
