@@ -45,9 +45,11 @@ json range_json(const FitSummary& summary, std::size_t i) {
   return {{"low", summary.ranges[i].low}, {"high", summary.ranges[i].high}};
 }
 
-bool is_identified(const FitSummary& summary, std::size_t i) {
+bool is_identified(const FitSummary& summary, const Span& span, std::size_t i) {
   if (!summary.intervals || !std::isfinite(summary.intervals->deviations[static_cast<Eigen::Index>(i)]))
     return false;
+  if (summary.basis == FitBasis::kFeatures && !summary.ranges.empty())
+    return is_decided(summary.ranges[i], span);
   if (!summary.profiles) return true;
   const ProfileInterval& interval = (*summary.profiles)[i];
   return interval.low.verdict != ProfileVerdict::kOpen || interval.high.verdict != ProfileVerdict::kOpen;
@@ -62,7 +64,7 @@ json parameters_json(const FitProblem& problem, const FitSummary& summary) {
              {"linearised", linear_json(summary, i)},
              {"profile", profile_json(summary, i)},
              {"range", range_json(summary, i)},
-             {"identified", summary.intervals ? json(is_identified(summary, i)) : json()},
+             {"identified", summary.intervals ? json(is_identified(summary, parameter.span, i)) : json()},
              {"from", parameter.span.from},
              {"to", parameter.span.to}};
     made.push_back(std::move(one));

@@ -57,7 +57,7 @@ struct FitProblem {
   std::vector<FitRun> runs;
   std::vector<FitSignal> signals;
   std::optional<FitBasis> basis{};  ///< empty: chosen by divergence
-  std::size_t replicates = 4;       ///< of each point, where features are compared
+  std::size_t replicates = 4;       ///< of each point in least squares by features
   std::size_t budget = 0;           ///< most points, replicates among them
   std::size_t population = 0;       ///< points of a generation of the population search
   std::uint64_t seed = 1;

@@ -24,20 +24,21 @@ using nlohmann::ordered_json;
 /// Points of the design: so many a parameter, and at least so many.
 constexpr std::size_t kDesignPoints = 6;
 constexpr std::size_t kFewestDesignPoints = 20;
-/// Replicates of the best point of the design, by which divergence and scatter are judged.
-constexpr std::size_t kDivergenceReplicates = 2;
-constexpr std::size_t kScatterReplicates = 8;
 /// Part of the budget that is spent before the profile likelihood.
 constexpr double kGlobalShare = 0.8;
 constexpr double kSearchShare = 0.12;  ///< of one population search
+constexpr double kFeatureSearchShare = 0.2;  ///< of one by features
 /// Steps of the differences of features, which scatter.
 constexpr double kFeatureStep = 0.05;
+/// Sum of squares of features over their number, above which more is left than runs scatter.
+constexpr double kMostFeatureSum = 2.0;
 constexpr std::size_t kFeatureIterations = 6;
+/// Replicates of the points of the intervals: derivatives of means that scatter would be too steep.
+constexpr std::size_t kIntervalReplicates = 16;
 /// Profiles: steps of each refit, and values on each side.
 constexpr std::size_t kRefitIterations = 3;
 constexpr std::size_t kProfileValues = 6;
-/// Least scale of a feature, as part of its measured value; and before scatter is known.
-constexpr double kLeastFeatureScale = 0.02;
+/// Scale of a feature before its scatter is known, as part of its measured value.
 constexpr double kFirstFeatureScale = 0.1;
 constexpr std::size_t kMostRestarts = 2;
 constexpr double kFailedFitness = 1e200;
@@ -61,7 +62,7 @@ constexpr double kNoiseMisfit = 0.05;
 /// Parameters differ in what they change.
 constexpr std::array<double, 5> kChanges{0.0, 0.5, 0.2, 0.1, 0.005};
 constexpr std::size_t kPassOfIntervals = 3;  ///< whose differences are those of the intervals, too
-constexpr double kFirstStep = 1e-2;  ///< of all parameters
+constexpr double kFirstStep = 1e-2;          ///< of all parameters
 constexpr double kShortestStep = 1e-5;
 constexpr double kLongestStep = 0.1;
 
@@ -184,69 +185,23 @@ FitSampler::Points FitSampler::run_design() {
   return {};
 }
 
-FitSampler::Points FitSampler::run_divergence() {
-  Points points{best_};
-  for (std::size_t k = 1; k <= kDivergenceReplicates; ++k) points.push_back(replicate_of(problem_, best_, k));
-  Points missing = missing_of(points);
-  if (!missing.empty()) return missing;
-  std::vector<std::vector<double>> residuals;
-  for (const FitPoint& point : points)
-    if (const auto found = residuals_.find(point); found != residuals_.end())
-      residuals.push_back(found->second);
-  if (residuals.size() < 2) {
-    summary_.remarks.emplace_back(
-        "Jobs beside the best point of the design failed, so that divergence was not measured.");
-    set_basis(FitBasis::kPointWise);
-    return {};
-  }
-  summary_.divergence = observer_->judge(residuals);
-  set_basis(observer_->measured_features().empty() ? FitBasis::kPointWise : summary_.divergence->basis);
-  return {};
-}
-
-void FitSampler::set_basis(FitBasis basis) {
-  summary_.basis = basis;
-  if (is_point_wise()) return begin_global();
-  summary_.stage = FitStage::kScatter;
-  sum_features();
-}
-
-FitSampler::Points FitSampler::run_scatter() {
-  Points points;
-  for (std::size_t k = 1; k <= kScatterReplicates; ++k) points.push_back(replicate_of(problem_, best_, k));
-  Points missing = missing_of(points);
-  if (!missing.empty()) return missing;
-  std::vector<std::vector<double>> replicates{features_.at(best_)};
-  for (const FitPoint& point : points)
-    if (const auto found = features_.find(point); found != features_.end())
-      replicates.push_back(found->second);
-  if (replicates.size() > 1) {
-    const FeatureScatter scatter = calc_scatter(replicates);
-    const double mean_of = 1.0 + 1.0 / static_cast<double>(problem_.replicates);
-    for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
-      const double least = kLeastFeatureScale * std::abs(observer_->measured_features()[k]);
-      feature_scale_[k] =
-          std::max({scatter.deviation[k] * std::sqrt(mean_of), least, std::numeric_limits<double>::min()});
-    }
-    sum_features();
-  }
-  begin_global();
-  return {};
-}
-
 void FitSampler::begin_global() {
   summary_.stage = FitStage::kGlobal;
+  replicates_ = 1;  // single runs tell far from near, and more of them are seen
   const auto part_of_budget = [this](double part) {
     return static_cast<std::size_t>(part * static_cast<double>(problem_.budget));
   };
   global_limit_ = part_of_budget(kGlobalShare);
   polish_limit_ = part_of_budget(kPolishShare);
-  search_limit_ = std::min(global_limit_, summary_.points.size() + part_of_budget(kSearchShare));
+  const std::size_t search = part_of_budget(is_point_wise() ? kSearchShare : kFeatureSearchShare);
+  search_limit_ = std::min(global_limit_, summary_.points.size() + search);
   box_centre_ = best_;
-  population_.emplace(PopulationOptions{.dimensions = best_.size(),
-                                        .population = problem_.population,
-                                        .seed = static_cast<unsigned>(problem_.seed + search_),
-                                        .start = box_parts_of(best_)});
+  PopulationOptions options{.dimensions = best_.size(),
+                            .population = problem_.population,
+                            .seed = static_cast<unsigned>(problem_.seed + search_)};
+  // Another search by features begins elsewhere: their basins are wide.
+  if (is_point_wise() || search_ == 0) options.start = box_parts_of(best_);
+  population_.emplace(options);
 }
 
 std::pair<double, double> FitSampler::box_of(std::size_t i) const {
@@ -301,11 +256,9 @@ FitSampler::Points FitSampler::run_global() {
     }
     if (!missing.empty()) return missing;
   }
-  Points complete = base_points_;
-  std::erase_if(complete,
-                [this](const FitPoint& point) { return !missing_of(replicates_of(point)).empty(); });
-  choose_best(complete);
-  begin_local(best_, 0);
+  choose_best(complete_points());
+  if (is_point_wise()) begin_local(best_, 0);
+  else summary_.stage = FitStage::kScatter;
   return {};
 }
 
@@ -328,15 +281,16 @@ void FitSampler::begin_local(const FitPoint& start, std::size_t pass) {
   factors_.assign(problem_.signals.size(), 1.0);
   if (is_point_wise() && !ends_) weigh_signals(start);
   const std::size_t left = problem_.budget - std::min(problem_.budget, summary_.points.size());
-  local_limit_ = is_point_wise() ? left : left / problem_.replicates;
+  if (!is_point_wise()) replicates_ = ends_ ? kIntervalReplicates : problem_.replicates;
+  local_limit_ = left / replicates_;
 }
 
 LeastSquaresOptions FitSampler::local_options() const {
   LeastSquaresOptions options{.max_evaluations = local_limit_, .steps = steps_};
   if (is_point_wise()) return options;
-  options.steps.assign(steps_.size(), kFeatureStep);
+  if (!ends_) options.steps.assign(steps_.size(), kFeatureStep);
   options.differences = Differences::kCentral;
-  options.max_iterations = kFeatureIterations;
+  options.max_iterations = ends_ ? 0 : kFeatureIterations;
   return options;
 }
 
@@ -415,10 +369,25 @@ void FitSampler::end_polish() {
   begin_global();
 }
 
+/// Searches go on while the best features are further from the measured ones than runs scatter.
+void FitSampler::end_feature_pass(const LeastSquaresResult& result) {
+  base_points_.push_back(result.x);
+  choose_best(complete_points());
+  const auto features = static_cast<double>(feature_scale_.size());
+  leaves_noise_ = loss_of(best_).value() <= kMostFeatureSum * features;
+  if (!leaves_noise_ && search_ + 1 < kMostSearches && summary_.points.size() < global_limit_) {
+    ++search_;
+    return begin_global();
+  }
+  ends_ = true;
+  begin_local(best_, 0);
+  steps_ = find_steps(result.jacobian, std::sqrt(features));
+}
+
 void FitSampler::end_local(LeastSquaresResult result) {
-  const bool is_fit = !result.x.empty() && result.end != FitEnd::kStartFailed && is_point_wise();
-  if (is_fit && !ends_) return end_pass(result);
-  if (is_fit) judge_residuals(as_vector(result.residuals));
+  const bool is_fit = !result.x.empty() && result.end != FitEnd::kStartFailed;
+  if (is_fit && !ends_) return is_point_wise() ? end_pass(result) : end_feature_pass(result);
+  if (is_fit && is_point_wise()) judge_residuals(as_vector(result.residuals));
   summary_.local_end =
       result.end == FitEnd::kMostEvaluations ? "The budget ended the least squares." : result.message;
   summary_.stage = FitStage::kPrediction;
@@ -436,6 +405,7 @@ void FitSampler::end_local(LeastSquaresResult result) {
     if (!leaves_noise_) options.misfit = observer_->misfit(as_vector(local_->residuals));
   } else {
     options.noise = ResidualNoise::kWhite;
+    options.replicates = residuals_of_replicates();
   }
   const std::vector<Span> spans = spans_of(problem_);
   if (local_->jacobian.rows() <= local_->jacobian.cols()) {
@@ -443,13 +413,15 @@ void FitSampler::end_local(LeastSquaresResult result) {
     return;
   }
   summary_.intervals = calc_intervals(local_->jacobian, local_->residuals, spans, local_->x, options);
-  if (!leaves_noise_) {
+  if (!is_point_wise()) {
+    begin_feature_scan();
+  } else if (!leaves_noise_) {
     summary_.remarks.emplace_back(
         "The best jobs leave more than noise: the search may have missed better values, or the linkage is "
         "not that of the measurement. No interval can say how sure the values are; the ranges are those of "
         "points about as good as the best.");
     summary_.ranges = find_ranges();
-  } else if (problem_.profiles && is_point_wise()) {
+  } else if (problem_.profiles) {
     summary_.stage = FitStage::kProfile;
   }
 }
@@ -475,6 +447,11 @@ void FitSampler::begin_scan() {
 FitSampler::Points FitSampler::run_scan() {
   Points missing = missing_of(scan_);
   if (!missing.empty()) return missing;
+  if (!is_point_wise()) {
+    end_features();
+    summary_.stage = FitStage::kPrediction;
+    return {};
+  }
   const FitPoint before = best_;
   base_points_.insert(base_points_.end(), scan_.begin(), scan_.end());
   choose_best(base_points_);

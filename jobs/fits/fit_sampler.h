@@ -39,6 +39,9 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] const std::optional<InvalidRequest>& first_invalid() const { return first_invalid_; }
 
  private:
+  /// Deviation of a signal over that with the best values, up to which a point counts as about as good.
+  static constexpr double kAsGood = 1.5;
+
   struct Job {
     std::string id, state;
     std::optional<std::string> error_reason;
@@ -70,9 +73,18 @@ class FitSampler final : public StudySampler {
   /// Another search, or the last least squares.
   void end_search();
   void set_basis(FitBasis basis);
+  /// Takes the divergence of points beside each other, if it is larger than the one known.
+  void judge_divergence_of(const Points& points);
+  /// Points of the design whose features are nearest to the measured ones; fewer if fewer have succeeded.
+  [[nodiscard]] Points nearest_by_features(std::size_t count) const;
   /// Sums of all points by features and their scale.
   void sum_features();
   void end_pass(const LeastSquaresResult& result);
+  void end_feature_pass(const LeastSquaresResult& result);
+  /// Residuals of each replicate of the best point, a column each.
+  [[nodiscard]] Eigen::MatrixXd residuals_of_replicates() const;
+  void begin_feature_scan();
+  void end_features();
   void keep_jacobian(const LeastSquaresResult& result);
   void end_polish();
   void judge_residuals(const std::vector<double>& residuals);
@@ -88,6 +100,8 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] NextCases end_if_nothing_waits(NextCases next);
 
   [[nodiscard]] Points missing_of(const Points& points) const;
+  /// Points that are no replicates, with all of theirs.
+  [[nodiscard]] Points complete_points() const;
   /// The points whose mean counts for a point.
   [[nodiscard]] Points replicates_of(const FitPoint& point) const;
   /// Residuals as the basis has them; empty if the jobs have failed.
@@ -123,8 +137,10 @@ class FitSampler final : public StudySampler {
   double least_loss_ = std::numeric_limits<double>::infinity();  ///< of point-wise ones, of searches
   std::map<FitPoint, std::vector<double>> features_;
   std::vector<double> feature_scale_;
+  double most_feature_sum_ = 0.0;  ///< of points as good as the best one
   Points base_points_;  ///< those that are no replicates
   FitPoint best_;       ///< empty: none has succeeded
+  FitPoint diverging_;  ///< point of the design beside which runs differ most; empty: none was judged
   std::optional<PopulationSearch> population_;
   std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
   FitPoint box_centre_;
@@ -136,6 +152,7 @@ class FitSampler final : public StudySampler {
   Points scan_;
   std::vector<double> factors_;  ///< of each signal's residuals in least squares
   std::size_t pass_ = 0;         ///< of the least squares, in kChanges
+  std::size_t replicates_ = 1;   ///< whose features' mean counts for a point
   std::vector<double> steps_;    ///< of the differences of the parameters
   std::size_t global_limit_ = 0, polish_limit_ = 0, search_limit_ = 0,
               local_limit_ = 0;  ///< numbers of points

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -16,15 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Deviation of a signal over that with the best values, up to which a point counts as about as good.
-constexpr double kAsGood = 1.5;
-
 }  // namespace
-
-void FitSampler::sum_features() {
-  for (FitPointSummary& point : summary_.points)
-    if (point.sum) point.loss = *point.sum = sum_of_squares(feature_residuals(features_.at(point.point)));
-}
 
 FitSampler::Points FitSampler::missing_of(const Points& points) const {
   Points missing;
@@ -34,9 +27,16 @@ FitSampler::Points FitSampler::missing_of(const Points& points) const {
   return missing;
 }
 
+FitSampler::Points FitSampler::complete_points() const {
+  Points complete = base_points_;
+  std::erase_if(complete,
+                [this](const FitPoint& point) { return !missing_of(replicates_of(point)).empty(); });
+  return complete;
+}
+
 FitSampler::Points FitSampler::replicates_of(const FitPoint& point) const {
   Points points{point};
-  for (std::size_t k = 1; !is_point_wise() && k < problem_.replicates; ++k)
+  for (std::size_t k = 1; k < replicates_; ++k)
     points.push_back(replicate_of(problem_, point, k));
   return points;
 }
@@ -136,13 +136,6 @@ void FitSampler::take(std::size_t index, Observation observation) {
   residuals_.insert_or_assign(point.point, std::move(observation.residuals));
 }
 
-std::vector<double> FitSampler::feature_residuals(const std::vector<double>& features) const {
-  std::vector<double> residuals;
-  for (std::size_t k = 0; k < features.size(); ++k)
-    residuals.push_back((features[k] - observer_->measured_features()[k]) / feature_scale_[k]);
-  return residuals;
-}
-
 std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& point) {
   const std::size_t index = indices_.at(point);
   if (is_point_wise()) {
@@ -198,6 +191,7 @@ double FitSampler::excess_of(const FitPointSummary& point) const {
 }
 
 bool FitSampler::is_as_good(const FitPointSummary& point) const {
+  if (!is_point_wise()) return point.sum && *point.sum <= most_feature_sum_;
   const FitPointSummary& best = summary_.points[summary_.best.value()];
   if (!point.sum || point.deviations.size() != best.deviations.size()) return false;
   if (leaves_noise_) return excess_of(point) <= summary_.intervals->quantile * summary_.intervals->quantile;

@@ -12,10 +12,11 @@
 #include "jobs/fits/fit_observer.h"
 #include "jobs/fits/intervals.h"
 #include "jobs/fits/profile_likelihood.h"
+#include "jobs/parameters/unit_scale.h"
 
 namespace jobs {
 
-/// Stage of a fit. kDesign: points that fill the space (Sobol). kDivergence: points beside the best one, by
+/// Stage of a fit. kDesign: points that fill the space (Sobol). kDivergence: points beside good ones, by
 /// which the basis is chosen. kScatter: more of them, whose features give the scale of features. kGlobal:
 /// population search. kLocal: least squares. kScan: each parameter over its span, the others as in the best
 /// point. kProfile: profile likelihood. kPrediction: runs that are held back, with the best values.
@@ -50,6 +51,11 @@ struct FitPointSummary {
 struct ValueRange {
   double low = 0.0, high = 0.0;
 };
+
+/// Whether a range is no more than half of a span, in its scale.
+[[nodiscard]] inline bool is_decided(const ValueRange& range, const Span& span) {
+  return part_at(span, range.high) - part_at(span, range.low) <= 0.5;
+}
 
 /// Deviations of one signal with the best values.
 struct SignalSummary {

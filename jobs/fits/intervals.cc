@@ -56,6 +56,18 @@ SeriesNoise calc_series_noise(const Eigen::MatrixXd& jacobian, const Eigen::Vect
   return noise;
 }
 
+/// The same of runs that scatter, by at least 1 in the mean, the scale of the residuals. The measured signals
+/// are one run more.
+SeriesNoise calc_replicate_noise(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& replicates) {
+  const auto count = static_cast<double>(replicates.cols());
+  const Eigen::MatrixXd off = replicates.colwise() - replicates.rowwise().mean().eval();
+  const Eigen::MatrixXd along = jacobian.transpose() * off;
+  const double mean_square = off.squaredNorm() / (count - 1.0) / static_cast<double>(off.rows());
+  const double factor = (1.0 + 1.0 / count) / (count - 1.0);
+  if (!(mean_square > 0.0)) return {jacobian.transpose() * jacobian, count};
+  return {factor * std::max(1.0, 1.0 / mean_square) * along * along.transpose(), count};
+}
+
 /// Columns of the directions along which the data do not decide.
 std::vector<std::size_t> find_unidentifiable(const Eigen::VectorXd& singular,
                                              const Eigen::VectorXd& deviations, double quantile,
@@ -125,7 +137,9 @@ std::vector<Estimate> calc_estimates(const FitIntervals& intervals, std::span<co
 std::string join(const std::vector<std::string>& words) {
   std::string joined;
   for (std::size_t k = 0; k < words.size(); ++k)
-    joined += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
+    joined += (k == 0 ? "" : k + 1 == words.size() ? " and "
+                                                   : ", ") +
+              words[k];
   return joined;
 }
 
@@ -159,13 +173,19 @@ FitIntervals calc_intervals(const Eigen::MatrixXd& jacobian, const Eigen::Vector
   SeriesNoise noise{
       intervals.residual_deviation * intervals.residual_deviation * jacobian.transpose() * jacobian,
       static_cast<double>(jacobian.rows())};
-  if (options.noise == ResidualNoise::kAutocorrelated)
+  const bool has_replicates = options.replicates.cols() > n;
+  if (has_replicates) {
+    noise = calc_replicate_noise(jacobian, options.replicates);
+    noise.middle *= std::max(1.0, intervals.residual_deviation * intervals.residual_deviation);
+  } else if (options.noise == ResidualNoise::kAutocorrelated) {
     noise = calc_series_noise(jacobian, residuals, options.blocks);
+  }
   intervals.effective_samples = noise.effective_samples;
   const double degrees = std::max(noise.effective_samples - static_cast<double>(n), 1.0);
   const auto parameters = static_cast<double>(n);
-  intervals.quantile =
-      std::sqrt(parameters * boost::math::quantile(boost::math::fisher_f(parameters, degrees), 0.95));
+  const double hotelling = has_replicates ? (noise.effective_samples - 1.0) / degrees : 1.0;
+  const double fisher = boost::math::quantile(boost::math::fisher_f(parameters, degrees), 0.95);
+  intervals.quantile = std::sqrt(hotelling * parameters * fisher);
   const double added = options.misfit / (intervals.quantile * intervals.quantile);
   noise.middle += added * jacobian.transpose() * jacobian;
   DirectionCovariance along = calc_direction_covariance(intervals, noise.middle);

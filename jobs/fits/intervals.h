@@ -20,6 +20,8 @@ struct IntervalOptions {
   std::vector<std::size_t>
       blocks;                 ///< lengths of the series that the residuals consist of; empty: one series
   double misfit = 0.0;        ///< part of the sum of squares that is no noise, see calc_intervals()
+  /// Residuals of runs with the same parameters, a column each; else empty
+  Eigen::MatrixXd replicates{};
   double least_ratio = 1e-5;  ///< of singular values: below, the errors of the differences decide
 };
 
@@ -46,6 +48,11 @@ struct FitIntervals {
 /// J)^-1 J^T V J (J^T J)^-1, where V is the covariance of an autoregressive model of each series of
 /// residuals. The degrees of freedom are the effective samples less the parameters. Source: Seber & Wild
 /// (2003), Nonlinear Regression, ch. 5 (intervals) and 6 (autocorrelated errors).
+///
+/// Replicates, more than parameters: V is their covariance, plus that of their mean. It is as much larger as
+/// the residuals' mean square is above 1, or that of the replicates below: residuals are in units of their
+/// scatter. The quantile is Hotelling's. Source: Anderson (2003), An Introduction to Multivariate Statistical
+/// Analysis, section 5.2.
 ///
 /// A misfit, as impacts leave that come a little too early or too late, tells nothing of how far the best
 /// point is from the true one. So parameters may lie wherever the linearised model changes the sum by as

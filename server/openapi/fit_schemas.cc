@@ -75,7 +75,7 @@ Json make_fit_request() {
                   "diverge or do not")},
        {"intervals", choice_of({"profile", "linearised"}, "how sure the values are")},
        {"replicates",
-        integer_between(jobs::kFitReplicatesRange, "jobs a point and run, where features are compared")},
+        integer_between(jobs::kFitReplicatesRange, "jobs a point and run, in least squares by features")},
        {"samples", integer_between(jobs::kFitSamplesRange,
                                    "most samples that are compared; others are left out evenly")},
        {"budget", integer_between(jobs::kFitBudgetRange, "most points")},
@@ -149,8 +149,9 @@ Json make_fit() {
        {"progress", {{"type", "number"}, {"minimum", 0}, {"maximum", 1}}},
        {"stage", choice_of({"design", "divergence", "scatter", "global", "local", "scan", "profile",
                             "prediction", "ended"},
-                           "points that fill the space; points beside the best one; the scatter of features; "
-                           "CMA-ES; least squares; profile likelihood; runs that are held back")},
+                           "points that fill the space; points beside good ones; the scatter of features; "
+                           "CMA-ES; least squares; parameters over their spans; profile likelihood; runs "
+                           "that are held back")},
        {"points", object_of({{"pending", kCount}, {"succeeded", kCount}, {"lost", kCount}})},
        {"basis", or_null(choice_of({"point_wise", "features"}, "what is compared"))},
        {"divergence",

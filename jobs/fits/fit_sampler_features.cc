@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fits by features: whether motions diverge, how features scatter, and how sure the best values are.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "jobs/fits/features.h"
+#include "jobs/fits/fit_cases.h"
+#include "jobs/fits/fit_sampler.h"
+#include "jobs/fits/observation.h"
+#include "jobs/statistics/unit_points.h"
+
+namespace jobs {
+namespace {
+
+/// Replicates of a point of the design, by which divergence and scatter are judged.
+constexpr std::size_t kDivergenceReplicates = 2;
+constexpr std::size_t kDivergenceCentres = 3;  ///< points of the design with the nearest features
+constexpr std::size_t kScatterReplicates = 8;
+constexpr double kFeatureDesignShare = 0.15;  ///< of the points between which features choose the first basin
+/// Least scale of a feature, as part of its measured value.
+constexpr double kLeastFeatureScale = 0.02;
+constexpr std::size_t kMostFeatureScan = 400;
+constexpr double kScanReach = 3.0;  ///< of the scan by features, over that of the linearised intervals
+
+}  // namespace
+
+/// Point by point, quiet motions are nearer to a chaotic measurement than those of its kind. Their features
+/// are not.
+FitSampler::Points FitSampler::run_divergence() {
+  const bool has_features = !observer_->measured_features().empty();
+  Points centres{best_};
+  for (FitPoint& near : nearest_by_features(kDivergenceCentres))
+    if (near != best_) centres.push_back(std::move(near));
+  std::vector<Points> all;
+  Points missing;
+  for (const FitPoint& centre : centres) {
+    Points& points = all.emplace_back(Points{centre});
+    for (std::size_t k = 1; k <= kDivergenceReplicates; ++k)
+      points.push_back(replicate_of(problem_, centre, k));
+    for (FitPoint& point : missing_of(points))
+      if (std::ranges::find(missing, point) == missing.end()) missing.push_back(std::move(point));
+  }
+  if (!missing.empty()) return missing;
+  for (const Points& points : all) judge_divergence_of(points);
+  if (!summary_.divergence)
+    summary_.remarks.emplace_back(
+        "Jobs beside the best point of the design failed, so that divergence was not measured.");
+  set_basis(has_features && summary_.divergence ? summary_.divergence->basis : FitBasis::kPointWise);
+  return {};
+}
+
+void FitSampler::judge_divergence_of(const Points& points) {
+  std::vector<std::vector<double>> residuals;
+  for (const FitPoint& point : points)
+    if (const auto found = residuals_.find(point); found != residuals_.end())
+      residuals.push_back(found->second);
+  if (residuals.size() < 2) return;
+  SignalDivergence found = observer_->judge(residuals);
+  if (summary_.divergence && found.ratio <= summary_.divergence->ratio) return;
+  summary_.divergence = std::move(found);
+  diverging_ = points.front();
+}
+
+void FitSampler::set_basis(FitBasis basis) {
+  summary_.basis = basis;
+  if (is_point_wise()) return begin_global();
+  summary_.stage = FitStage::kScatter;
+  sum_features();
+  choose_best(base_points_);
+  const std::size_t n = problem_.parameters.size();
+  const auto more = static_cast<std::size_t>(kFeatureDesignShare * static_cast<double>(problem_.budget));
+  for (const auto& parts : sobol_points(more, n, problem_.seed))
+    base_points_.push_back(point_at(problem_, parts));
+}
+
+/// Features count by how much runs scatter: those of the design that diverge most, and later the best ones if
+/// they scatter more. Quiet ones would give each feature the same small scale.
+FitSampler::Points FitSampler::run_scatter() {
+  const FitPoint& centre = population_ || diverging_.empty() ? best_ : diverging_;
+  Points points;
+  for (std::size_t k = 1; k <= kScatterReplicates; ++k) points.push_back(replicate_of(problem_, centre, k));
+  if (!population_) points.insert(points.end(), base_points_.begin(), base_points_.end());
+  Points missing = missing_of(points);
+  if (!missing.empty()) return missing;
+  points.resize(kScatterReplicates);
+  std::vector<std::vector<double>> replicates{features_.at(centre)};
+  for (const FitPoint& point : points)
+    if (const auto found = features_.find(point); found != features_.end())
+      replicates.push_back(found->second);
+  if (replicates.size() > 1) {
+    const FeatureScatter scatter = calc_scatter(replicates);
+    const double mean_of = 1.0 + 1.0 / static_cast<double>(problem_.replicates);
+    for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
+      const double least = kLeastFeatureScale * std::abs(observer_->measured_features()[k]);
+      const double known = population_ ? feature_scale_[k] : std::numeric_limits<double>::min();
+      feature_scale_[k] = std::max({scatter.deviation[k] * std::sqrt(mean_of), least, known});
+    }
+    sum_features();
+    if (!population_) choose_best(base_points_);
+  }
+  if (population_) begin_local(best_, 0);
+  else begin_global();
+  return {};
+}
+
+Eigen::MatrixXd FitSampler::residuals_of_replicates() const {
+  std::vector<std::vector<double>> all;
+  for (const FitPoint& replicate : replicates_of(best_))
+    if (const auto found = features_.find(replicate); found != features_.end())
+      all.push_back(feature_residuals(found->second));
+  const auto rows = static_cast<Eigen::Index>(feature_scale_.size());
+  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(all.size()));
+  for (Eigen::Index k = 0; k < columns.cols(); ++k)
+    columns.col(k) = Eigen::Map<const Eigen::VectorXd>(all[static_cast<std::size_t>(k)].data(), rows);
+  return columns;
+}
+
+/// Searches crowd about their best points: how far values may lie from them is seen beyond the linearised
+/// intervals.
+void FitSampler::begin_feature_scan() {
+  summary_.stage = FitStage::kScan;
+  scan_.clear();
+  const std::size_t left = problem_.budget - std::min(problem_.budget, summary_.points.size());
+  const std::size_t count = std::min(left, kMostFeatureScan);
+  for (UnitPoint parts : sobol_points(count, best_.size(), problem_.seed + 1)) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const double reach = kScanReach * summary_.intervals->quantile *
+                           summary_.intervals->deviations[static_cast<Eigen::Index>(i)];
+      const double best = part_at(problem_.parameters[i].span, best_[i]);
+      parts[i] = std::lerp(std::max(0.0, best - reach), std::min(1.0, best + reach), parts[i]);
+    }
+    scan_.push_back(point_at(problem_, parts));
+  }
+}
+
+/// The measured features and those of a run with the true values differ as two runs of one point do. So
+/// values are as good as the best if theirs differ no more than 95 % of such pairs, of the best point or,
+/// where that is quieter than the one of the scales, as such pairs do in the mean; or about as much as those
+/// of the best itself, which is chosen because they differ little.
+void FitSampler::end_features() {
+  const Eigen::MatrixXd replicates = residuals_of_replicates();
+  most_feature_sum_ = 2.0 * static_cast<double>(feature_scale_.size());
+  std::vector<double> pairs;
+  for (Eigen::Index i = 0; i < replicates.cols(); ++i)
+    for (Eigen::Index k = 0; k < i; ++k)
+      pairs.push_back((replicates.col(i) - replicates.col(k)).squaredNorm());
+  if (!pairs.empty()) {
+    const auto place = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(pairs.size() - 1));
+    std::ranges::nth_element(pairs, pairs.begin() + place);
+    most_feature_sum_ = std::max(most_feature_sum_, pairs[static_cast<std::size_t>(place)]);
+  }
+  most_feature_sum_ = std::max(most_feature_sum_, kAsGood * kAsGood * local_->sum);
+  summary_.ranges = find_ranges();
+  for (std::size_t i = 0; i < summary_.ranges.size(); ++i)
+    if (!is_decided(summary_.ranges[i], problem_.parameters[i].span))
+      summary_.remarks.push_back(problem_.parameters[i].path +
+                                 " is hardly decided: runs with values over half its span have features as "
+                                 "near to the measured ones as runs are to each other.");
+  if (!leaves_noise_)
+    summary_.remarks.emplace_back(
+        "The features of the best jobs differ from the measured ones by more than those of runs differ from "
+        "each other: the search may have missed better values, or the linkage is not that of the "
+        "measurement. The intervals are wider by as much.");
+}
+
+void FitSampler::sum_features() {
+  for (FitPointSummary& point : summary_.points)
+    if (point.sum) point.loss = *point.sum = sum_of_squares(feature_residuals(features_.at(point.point)));
+}
+
+FitSampler::Points FitSampler::nearest_by_features(std::size_t count) const {
+  std::map<double, FitPoint> ranked;
+  for (const FitPoint& point : base_points_)
+    if (const auto found = features_.find(point); found != features_.end() && !found->second.empty())
+      ranked.emplace(sum_of_squares(feature_residuals(found->second)), point);
+  Points nearest;
+  for (const auto& [sum, point] : ranked)
+    if (nearest.size() < count) nearest.push_back(point);
+  return nearest;
+}
+
+std::vector<double> FitSampler::feature_residuals(const std::vector<double>& features) const {
+  std::vector<double> residuals;
+  for (std::size_t k = 0; k < features.size(); ++k)
+    residuals.push_back((features[k] - observer_->measured_features()[k]) / feature_scale_[k]);
+  return residuals;
+}
+
+}  // namespace jobs
