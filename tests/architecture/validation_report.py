@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Report of the validation: short, its commands list rows, and its table is that of its rows.
+"""Report of the validation: short, its commands list rows, and its table is that of its rows. So is that of the fits.
 
     validation_report.py ROOT
 """
@@ -61,6 +61,34 @@ def check_commands(text, root):
         check(listed.returncode == 0 and len(listed.stdout.splitlines()) > 5, f"lists no rows: {command}")
 
 
+def check_fits(folder):
+    text = (folder / "FITS.md").read_text(encoding="utf-8")
+    kinds = collections.defaultdict(lambda: collections.defaultdict(dict))
+    with open(folder / "fits.csv", newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            kinds[row["kind"]][row["set"]][row["parameter"]] = row
+    check(kinds, "there are no fits")
+    for kind, sets in kinds.items():
+        def count(holds, sets=sets):
+            return sum(holds(one) for one in sets.values())
+
+        def error(row):
+            return abs(float(row["value"]) - float(row["truth"]))
+
+        def is_inside(row):
+            return float(row["low"].replace("null", "-inf")) <= float(row["truth"]) <= float(row["high"].replace("null", "inf"))
+
+        def has_peak(one):
+            row = one["clearance_mm"]
+            return abs(float(row["predicted_peak"]) / float(row["measured_peak"]) - 1) <= 0.05
+
+        counts = [len(sets), count(lambda one: error(one["clearance_mm"]) <= 0.02 * float(one["clearance_mm"]["truth"])),
+                  count(lambda one: error(one["restitution"]) <= 0.02), count(has_peak),
+                  count(lambda one: all(map(is_inside, one.values())))]
+        line = f"| {kind} | " + " | ".join(map(str, counts)) + " |"
+        check(line in text, f"FITS.md lacks the line of fits.csv: {line}")
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
     folder = root / "validation"
@@ -72,6 +100,7 @@ def main():
     check_rows(rows)
     check_summary(text, rows)
     check_commands(text, root)
+    check_fits(folder)
     linked = set(re.findall(r"\]\(figures/(\w+\.svg)\)", text))
     drawn = {path.name for path in (folder / "figures").iterdir()}
     check(linked == drawn, f"figures that stand in one of report and folder: {sorted(linked ^ drawn)}")

@@ -33,9 +33,9 @@ difference is within its `bound`, and `note` gives the reason for the bound. A r
 of a table; the `note` of the table's first row explains the table.
 
 `rpsup-validate --report validation/VALIDATION.md` writes this report, the rows and the figures. A test runs
-`rpsup-validate --check validation/VALIDATION.md`, which computes everything again and compares every line of
-the report and of the rows. Each section of chapters 1 to 8 is also a test of its own, for example
-`engine_tests --gtest_filter='*/rebounds_obey_the_closed_form'`.
+`rpsup-validate --check validation/VALIDATION.md`, which computes all again and compares every line. Each
+section of chapters 1 to 8 is also a test of its own, for example
+`engine_tests --gtest_filter='*/rebounds_obey_the_closed_form'`. [FITS.md](FITS.md) tries fits.
 )";
 
 constexpr const char* kFaults =
