@@ -20,7 +20,9 @@ namespace {
 
 /// Replicates of a point of the design, by which divergence and scatter are judged.
 constexpr std::size_t kDivergenceReplicates = 2;
-constexpr std::size_t kDivergenceCentres = 3;  ///< points of the design with the nearest features
+/// Points of the design with the nearest features, as far as the budget allows for each.
+constexpr std::size_t kDivergenceCentres = 3;
+constexpr std::size_t kBudgetOfCentre = 100;
 constexpr std::size_t kScatterReplicates = 8;
 constexpr double kFeatureDesignShare = 0.15;  ///< of the points between which features choose the first basin
 /// Least scale of a feature, as part of its measured value.
@@ -35,7 +37,7 @@ constexpr double kScanReach = 3.0;  ///< of the scan by features, over that of t
 FitSampler::Points FitSampler::run_divergence() {
   const bool has_features = !observer_->measured_features().empty();
   Points centres{best_};
-  for (FitPoint& near : nearest_by_features(kDivergenceCentres))
+  for (FitPoint& near : nearest_by_features(std::min(kDivergenceCentres, problem_.budget / kBudgetOfCentre)))
     if (near != best_) centres.push_back(std::move(near));
   std::vector<Points> all;
   Points missing;
