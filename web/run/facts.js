@@ -14,21 +14,21 @@ export function metricsCard(jobs) {
   const names = all.filter((name) => !times.has(name));
   const labels = labelsOf(jobs);
   const head = h("tr", {}, h("th", { scope: "col" }, "Metric"),
-    labels.map((_, index) => h("th", { scope: "colgroup", class: "number", colspan: 2 },
-      jobs.length === 1 ? "Value" : labels[index])),
+    labels.flatMap((_, index) => [h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index]),
+      h("th", { scope: "col", class: "number" }, "At [s]")]),
     h("th", { scope: "col" }, "Unit"));
   return h("section", { class: "card scroll", tabindex: 0, "aria-label": "Metrics" }, h("h2", {}, "Metrics"),
     h("table", { class: "metrics" }, h("thead", {}, head), h("tbody", {},
     names.map((name) => h("tr", {}, h("td", {}, term("metrics", name, nameOf(name))),
       jobs.flatMap((job) => [h("td", { class: "number" }, number(job.metrics?.[name], 5)),
-        h("td", { class: "quiet" }, atTime(job, name))]), h("td", {}, unitOf(name)))))),
+        h("td", { class: "number quiet" }, timeOf(job, name))]), h("td", {}, unitOf(name)))))),
       whyMissing(jobs));
 }
 
 /** @param {Api.Job} job  @param {string} metric */
-function atTime({ metrics }, metric) {
+function timeOf({ metrics }, metric) {
   const time = metrics?.[timeMetricOf(metric)];
-  return typeof time === "number" ? `at ${number(time, 5)} s` : "";
+  return typeof time === "number" ? number(time, 4) : "";
 }
 
 /// A dash without a word would look like a fault.
