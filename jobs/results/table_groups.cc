@@ -39,7 +39,7 @@ bool varies(const ResultTable& table, std::size_t column) {
   return least && *most - *least > 1e-9 * std::max(std::abs(*least), std::abs(*most));
 }
 
-/// Of a peak.
+/// Time of a peak, by the end of its name.
 bool is_time(std::string_view metric) { return metric.ends_with("_time_s"); }
 
 }  // namespace

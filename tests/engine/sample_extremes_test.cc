@@ -92,7 +92,8 @@ void check_times_follow(std::span<const QuantityInfo> table) {
   int peaks = 0;
   for (std::size_t k = 0; k < table.size(); ++k) {
     const std::string& key = table[k].key;
-    const bool is_peak = key.starts_with("peak_") || key.starts_with("max_") || key.starts_with("ideal_peak_");
+    const bool is_peak =
+        key.starts_with("peak_") || key.starts_with("max_") || key.starts_with("ideal_peak_");
     if (!is_peak || key.ends_with("_time_s")) continue;
     ASSERT_LT(k + 1, table.size()) << key;
     EXPECT_TRUE(table[k + 1].key.ends_with("_time_s")) << key;

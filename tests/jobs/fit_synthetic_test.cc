@@ -162,8 +162,8 @@ void write_rows(const Rig& rig, const Tried& tried, std::ostream& out) {
     const json& interval = interval_of(parameter);
     out << rig.name << ',' << tried.set << ',' << rig.over[k].path << ',' << tried.truth[k] << ','
         << parameter.at("value") << ',' << interval.at("low") << ',' << interval.at("high") << ','
-        << parameter.at("identified") << ',' << held.at("measured_peak") << ',' << held.at("predicted_peak") << ','
-        << tried.fit.at("points").at("succeeded") << std::endl;
+        << parameter.at("identified") << ',' << held.at("measured_peak") << ',' << held.at("predicted_peak")
+        << ',' << tried.fit.at("points").at("succeeded") << std::endl;
   }
 }
 

@@ -34,8 +34,9 @@ double position(double clearance, double restitution, double velocity, double t)
   return clearance * (std::cos(velocity * t) + 0.3 * restitution * std::sin(3.0 * velocity * t));
 }
 
-/// Runner of the closed form. @param scatter  of each job's signal, by its parameters  @param from_mm  clearance
-/// from which on signals scatter
+/// Runner of the closed form.
+/// @param scatter  of each job's signal, by its parameters
+/// @param from_mm  clearance from which on signals scatter
 class ClosedForm {
  public:
   explicit ClosedForm(double scatter = 0.0, double from_mm = 0.0) : scatter_(scatter), from_mm_(from_mm) {}

@@ -82,15 +82,16 @@ TEST(FitIntervals, HoldTheTrueValuesUnderCorrelatedNoise) {
   EXPECT_LT(taken_as_white.intervals, 0.85) << "the correlation matters here";
 }
 
-/// Part of 400 linear models of twelve features whose 95 % region holds the true values. Half of the features'
-/// variance is common to all of them.
+/// Part of 400 linear models of twelve features whose 95 % region holds the true values. Half of the
+/// features' variance is common to all of them.
 double calc_replicate_coverage(bool has_replicates) {
   constexpr Eigen::Index kFeatures = 12, kRuns = 16;
   const std::vector<jobs::Span> spans(3, jobs::Span{0.0, 1.0, false});
   const std::vector<double> best{0.5, 0.5, 0.5};
   double coverage = 0.0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
-    const auto draws = make_noise(static_cast<std::size_t>((kRuns + 1) * (kFeatures + 1) + 3 * kFeatures), 0.0, seed);
+    const Eigen::Index count = (kRuns + 1) * (kFeatures + 1) + 3 * kFeatures;
+    const auto draws = make_noise(static_cast<std::size_t>(count), 0.0, seed);
     std::size_t next = 0;
     Eigen::MatrixXd runs(kFeatures, kRuns + 1);
     for (auto run : runs.colwise()) {
@@ -108,7 +109,8 @@ double calc_replicate_coverage(bool has_replicates) {
         {.noise = jobs::ResidualNoise::kWhite,
          .blocks = {},
          .replicates = has_replicates ? replicates : Eigen::MatrixXd()});
-    const bool is_held = step.dot(intervals.covariance.ldlt().solve(step)) <= intervals.quantile * intervals.quantile;
+    const double distance = step.dot(intervals.covariance.ldlt().solve(step));
+    const bool is_held = distance <= intervals.quantile * intervals.quantile;
     coverage += is_held ? 1.0 / 400.0 : 0.0;
   }
   return coverage;
