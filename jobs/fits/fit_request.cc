@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <numbers>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "jobs/fits/fit_cases.h"
+#include "jobs/fits/fit_signals.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/parameter_value.h"
@@ -34,39 +32,14 @@ constexpr std::array<std::pair<std::string_view, SensorQuantity>, 3> kSensorQuan
     {{"gain", SensorQuantity::kGain},
      {"offset", SensorQuantity::kOffset},
      {"delay_s", SensorQuantity::kDelay}}};
-/// Samples of jobs per second: at least so many, and so many where the measured ones are not evenly spaced.
-constexpr double kLeastRate = 1000.0;
-constexpr double kUnevenRate = 5000.0;
 /// Cycles in a signal whose drive has no period.
 constexpr double kCyclesOfOther = 8.0;
 
-/// Samples that tell their noise.
-constexpr std::size_t kFewestForNoise = 50;
-
-/// Entry of "measurements" as it was read.
-struct ReadMeasurement {
-  std::string pointer;
-  Measurement measurement;
-  std::vector<std::size_t> runs;
-  std::set<std::size_t> held_back_runs;
-  std::vector<TimeWindow> fitted, held_back;
-  double time_shift_s = 0.0;
-  std::map<std::string, json> channels;  ///< options by name; empty: all that the jobs have, too
-};
-
-/// Samples per second of a measured time axis; 0 if they are not evenly spaced.
-double even_rate(const std::vector<double>& time_s) {
-  const double step = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
-  for (std::size_t k = 1; k < time_s.size(); ++k)
-    if (std::abs(time_s[k] - time_s.front() - step * static_cast<double>(k)) > 1e-3 * step) return 0.0;
-  return std::stod(number_text(std::round(1e6 / step) / 1e6));
-}
-
 /// Reader of one request; a member function a part of it.
-class FitParser : private RequestParser {
+class FitParser : private FittedMeasurementsParser {
  public:
   FitParser(const ordered_json& request, const FindMeasurement& find_measurement, std::size_t max_jobs)
-      : RequestParser(request), find_measurement_(find_measurement), max_jobs_(max_jobs) {}
+      : FittedMeasurementsParser(request, find_measurement), max_jobs_(max_jobs) {}
 
   FitProblem parse() {
     check_keys_of(json(request_), "", kFitRequestKeys);
@@ -81,7 +54,7 @@ class FitParser : private RequestParser {
     set_job_times();
     complete_runs();
     throw_if_faulty();
-    for (const ReadMeasurement& one : read_) add_signals(one);
+    for (const FittedMeasurement& one : measurements_) add_signals(one);
     throw_if_faulty();
     check_signals();
     if (faults_.empty()) check_places();
@@ -97,111 +70,6 @@ class FitParser : private RequestParser {
       common_ = parse_sweep_request(made_.common_sweep, max_jobs_);
     } catch (const InvalidRequest& invalid) {
       add_faults(invalid);
-    }
-  }
-
-  void read_measurements() {
-    const json given = request_.value("measurements", ordered_json());
-    if (!given.is_array() || given.empty() || given.size() > kMostFittedMeasurements)
-      return fault("/measurements", "must be a list of 1 to " + std::to_string(kMostFittedMeasurements) +
-                                        " objects, {\"id\": \"mea_...\"}, say");
-    for (std::size_t k = 0; k < given.size(); ++k)
-      read_measurement(given[k], "/measurements/" + std::to_string(k));
-  }
-
-  void read_measurement(const json& given, const std::string& pointer) {
-    if (!given.is_object()) return fault(pointer, "must be an object with \"id\"");
-    check_keys_of(given, pointer, kFittedMeasurementKeys);
-    const json id = given.value("id", json());
-    if (!id.is_string()) return fault(pointer + "/id", "must be the id of a measurement");
-    auto found = find_measurement_(id.get<std::string>());
-    if (!found) return fault(pointer + "/id", "there is no measurement " + id.get<std::string>());
-    ReadMeasurement one;
-    one.pointer = pointer;
-    one.measurement = std::move(*found);
-    ids_.push_back(id.get<std::string>());
-    one.runs = read_runs(given, pointer, "runs", one.measurement.runs.size(), true);
-    for (const std::size_t run :
-         read_runs(given, pointer, "held_back_runs", one.measurement.runs.size(), false)) {
-      if (std::ranges::find(one.runs, run) == one.runs.end())
-        fault(pointer + "/held_back_runs", "has run " + std::to_string(run) + ", which is not among runs");
-      one.held_back_runs.insert(run);
-    }
-    one.fitted = read_windows(given, pointer, "fitted");
-    one.held_back = read_windows(given, pointer, "held_back");
-    if (given.contains("time_shift_s") &&
-        is_right(pointer + "/time_shift_s", describe_number_fault({}, "s", given.at("time_shift_s"))))
-      one.time_shift_s = given.at("time_shift_s").get<double>();
-    read_channels(given, one);
-    read_.push_back(std::move(one));
-  }
-
-  std::vector<std::size_t> read_runs(const json& given, const std::string& pointer, const char* key,
-                                     std::size_t count, bool all) {
-    std::vector<std::size_t> runs;
-    if (!given.contains(key)) {
-      for (std::size_t k = 0; all && k < count; ++k) runs.push_back(k);
-      return runs;
-    }
-    const json& list = given.at(key);
-    const Range range{.minimum = 0.0, .maximum = static_cast<double>(count - 1)};
-    if (!list.is_array() || (all && list.empty())) {
-      fault(pointer + "/" + key, "must be a list of numbers of runs, from 0 to " + std::to_string(count - 1));
-      return runs;
-    }
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      const std::string place = pointer + "/" + key + "/" + std::to_string(k);
-      if (!is_right(place, describe_integer_fault(range, list[k]))) continue;
-      const auto run = list[k].get<std::size_t>();
-      if (std::ranges::find(runs, run) != runs.end()) fault(place, "is in the list already");
-      runs.push_back(run);
-    }
-    return runs;
-  }
-
-  std::vector<TimeWindow> read_windows(const json& given, const std::string& pointer, const char* key) {
-    std::vector<TimeWindow> windows;
-    if (!given.contains(key)) return windows;
-    const json& list = given.at(key);
-    if (!list.is_array()) {
-      fault(pointer + "/" + key, "must be a list of windows, [[0, 2]], say");
-      return windows;
-    }
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      const json& window = list[k];
-      const bool right = window.is_array() && window.size() == 2 && window[0].is_number() &&
-                         window[1].is_number() && window[0].get<double>() < window[1].get<double>();
-      if (right) windows.push_back({.from_s = window[0].get<double>(), .to_s = window[1].get<double>()});
-      else fault(pointer + "/" + key + "/" + std::to_string(k), "must be two ascending times, [0, 2], say");
-    }
-    return windows;
-  }
-
-  void read_channels(const json& given, ReadMeasurement& one) {
-    if (!given.contains("channels")) return;
-    const std::string pointer = one.pointer + "/channels";
-    const json& channels = given.at("channels");
-    if (!channels.is_object() || channels.empty())
-      return fault(pointer, "must be an object of channels, {\"slider_acceleration_m_s2\": {}}, say");
-    std::vector<std::string_view> known;
-    for (const MeasuredChannel& channel : one.measurement.channels) known.push_back(channel.name);
-    for (const auto& [name, options] : channels.items()) {
-      const std::string place = pointer + pointer_token(name);
-      if (std::ranges::find(known, name) == known.end()) {
-        fault(place, describe_unknown_key(name, known));
-        continue;
-      }
-      if (!options.is_object()) {
-        fault(place, "must be an object of weight and noise");
-        continue;
-      }
-      check_keys_of(options, place, kFittedChannelKeys);
-      for (const std::string_view key : kFittedChannelKeys) {
-        const Range above_0{.minimum = 0.0, .lower = Bound::kExclusive};
-        if (options.contains(key))
-          is_right(place + "/" + std::string(key), describe_number_fault(above_0, "", options.at(key)));
-      }
-      one.channels[name] = options;
     }
   }
 
@@ -228,9 +96,9 @@ class FitParser : private RequestParser {
   }
 
   void add_runs() {
-    for (std::size_t k = 0; k < read_.size(); ++k) {
-      for (const std::size_t run : read_[k].runs)
-        made_.runs.push_back({.measurement_id = ids_[k], .number = run});
+    for (std::size_t k = 0; k < measurements_.size(); ++k) {
+      for (const std::size_t run : measurements_[k].runs)
+        made_.runs.push_back({.measurement_id = measurements_[k].id, .number = run});
     }
   }
 
@@ -253,14 +121,15 @@ class FitParser : private RequestParser {
     const std::string last = path.substr(dot + 1);
     const auto quantity =
         std::ranges::find(kSensorQuantities, last, [](const auto& one) { return one.first; });
-    const auto has_channel = [&](const ReadMeasurement& one) {
+    const auto has_channel = [&](const FittedMeasurement& one) {
       return std::ranges::find(one.measurement.channels, name, &MeasuredChannel::name) !=
                  one.measurement.channels.end() &&
              (one.channels.empty() || one.channels.contains(name));
     };
     if (quantity == kSensorQuantities.end())
       return fault(pointer, "must end in gain, offset or delay_s, sensor.slider_position_m.gain, say");
-    if (std::ranges::none_of(read_, has_channel)) return fault(pointer, "names no channel that is compared");
+    if (std::ranges::none_of(measurements_, has_channel))
+      return fault(pointer, "names no channel that is compared");
     if (!given.is_object()) return fault(pointer, "must be an object of from, to, scale and start");
     const std::size_t before = faults_.size();
     constexpr std::array<std::string_view, 1> kOthers{"start"};
@@ -309,7 +178,7 @@ class FitParser : private RequestParser {
 
   [[nodiscard]] const MeasuredRun& measured_run(std::size_t run) const {
     std::size_t first = 0;
-    for (const ReadMeasurement& one : read_) {
+    for (const FittedMeasurement& one : measurements_) {
       if (run < first + one.runs.size()) return one.measurement.runs[one.runs[run - first]];
       first += one.runs.size();
     }
@@ -375,7 +244,7 @@ class FitParser : private RequestParser {
   /// Latest time of a job that is compared.
   [[nodiscard]] double find_end() const {
     double end = 0.0;
-    for (const ReadMeasurement& one : read_) {
+    for (const FittedMeasurement& one : measurements_) {
       for (const std::size_t run : one.runs) {
         MeasuredSignal times;
         times.t = one.measurement.runs[run].time_s;
@@ -403,10 +272,7 @@ class FitParser : private RequestParser {
   void set_job_times() {
     ordered_json& parameters = made_.common_sweep["parameters"];
     if (parameters.is_null()) parameters = ordered_json::object();
-    const double measured_rate = even_rate(measured_run(0).time_s);
-    const double rate = measured_rate > 0.0 && measured_rate <= 1e5
-                            ? measured_rate * std::ceil(std::min(kLeastRate / measured_rate, 1e3))
-                            : kUnevenRate;
+    const double rate = find_output_rate(measured_run(0).time_s);
     if (!is_given("output_rate_hz")) parameters["output_rate_hz"] = rate;
     if (keeps_metrics_alone(parameters))
       fault("/parameters" + pointer_token(kKeepKey), std::string(kNeedsTrajectories));
@@ -429,7 +295,7 @@ class FitParser : private RequestParser {
     }
   }
 
-  void add_signals(const ReadMeasurement& one) {
+  void add_signals(const FittedMeasurement& one) {
     for (const std::size_t run : one.runs) {
       const std::size_t index = next_run_++;
       const auto job_channels = channel_table(to_job_spec(completed_[index]));
@@ -455,66 +321,17 @@ class FitParser : private RequestParser {
     }
   }
 
-  void add_signal(const ReadMeasurement& one, std::size_t run, std::size_t index, std::size_t column) {
-    const MeasuredChannel& channel = one.measurement.channels[column];
-    const MeasuredRun& samples = one.measurement.runs[run];
-    FitSignal signal;
+  void add_signal(const FittedMeasurement& one, std::size_t run, std::size_t index, std::size_t column) {
+    const SignalSource source{.measurement = one,
+                              .run = run,
+                              .column = column,
+                              .job_parameters = completed_[index],
+                              .delays = delay_limits()};
+    FitSignal signal = make_fit_signal(source);
+    is_right(one.pointer + "/channels" + pointer_token(signal.channel), describe_scale_fault(signal));
     signal.run = index;
-    signal.channel = channel.name;
-    const Span delays = delay_limits();
-    const double job_end = completed_[index].at("duration_s").get<double>();
-    for (std::size_t k = 0; k < samples.time_s.size(); ++k) {
-      const double t = samples.time_s[k] + one.time_shift_s - channel.delay_s;
-      if (t - delays.to < 0.0 || t - delays.from > job_end) continue;
-      signal.measured.t.push_back(t);
-      signal.measured.y.push_back(channel.sign * channel.gain * samples.columns[column][k] + channel.offset);
-    }
-    const auto shifted = [&](std::vector<TimeWindow> windows) {
-      for (TimeWindow& window : windows) {
-        window.from_s += one.time_shift_s - channel.delay_s;
-        window.to_s += one.time_shift_s - channel.delay_s;
-      }
-      return windows;
-    };
-    constexpr double kNever = std::numeric_limits<double>::infinity();
-    signal.measured.fitted = shifted(one.fitted);
-    signal.measured.held_back = shifted(one.held_back);
-    // The steady window: what comes before depends on how the machine was started.
-    const double steady_from = completed_[index].at("run_up_s").get<double>();
-    if (one.fitted.empty()) signal.measured.fitted = {{.from_s = steady_from, .to_s = kNever}};
-    if (one.held_back_runs.contains(run)) {
-      auto& held_back = signal.measured.held_back;
-      held_back.insert(held_back.end(), signal.measured.fitted.begin(), signal.measured.fitted.end());
-      signal.measured.fitted = {{.from_s = kNever, .to_s = kNever}};
-    }
-    if (channel.low_pass_hz) {
-      signal.sensor.order = LowPassOrder::kSecond;
-      signal.sensor.cutoff_hz = *channel.low_pass_hz;
-    }
-    const json options = one.channels.contains(channel.name) ? one.channels.at(channel.name) : json::object();
-    set_scale(signal, options, one.pointer + "/channels" + pointer_token(channel.name));
     signal.cycle_s = cycle_of(index, signal);
     made_.signals.push_back(std::move(signal));
-  }
-
-  void set_scale(FitSignal& signal, const json& options, const std::string& pointer) {
-    const auto fitted = select_samples(signal.measured, Samples::kFitted);
-    double mean = 0.0;
-    double squares = 0.0;
-    for (const std::size_t k : fitted) mean += signal.measured.y[k] / static_cast<double>(fitted.size());
-    for (const std::size_t k : fitted) squares += std::pow(signal.measured.y[k] - mean, 2);
-    double sigma = 1.0;
-    if (options.contains("noise")) sigma = options.at("noise").get<double>();
-    else if (squares > 0.0) sigma = std::sqrt(squares / static_cast<double>(fitted.size()));
-    else if (!fitted.empty()) fault(pointer, "does not vary: give its noise");
-    std::vector<double> samples;
-    for (const std::size_t k : fitted) samples.push_back(signal.measured.y[k]);
-    if (options.contains("noise")) signal.noise = sigma;
-    else if (samples.size() > kFewestForNoise) signal.noise = estimate_noise(samples);
-    signal.weight = options.value("weight", 1.0);
-    signal.measured.sigma = sigma / signal.weight;
-    if (!std::isnormal(*signal.measured.sigma))
-      fault(pointer, "has samples, a noise or a weight whose squares are no numbers");
   }
 
   [[nodiscard]] double cycle_of(std::size_t run, const FitSignal& signal) const {
@@ -573,12 +390,9 @@ class FitParser : private RequestParser {
                            " are allowed");
   }
 
-  const FindMeasurement& find_measurement_;
   std::size_t max_jobs_;
   FitProblem made_;
   SweepRequest common_;
-  std::vector<std::string> ids_;  ///< of read_
-  std::vector<ReadMeasurement> read_;
   std::vector<json> completed_;  ///< parameters of each run
   std::size_t most_samples_ = 0;
   std::size_t next_run_ = 0;

@@ -3,37 +3,27 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
-#include <optional>
-#include <string>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
 
 #include "jobs/fits/fit_problem.h"
-#include "jobs/measurements/measurement.h"
+#include "jobs/fits/fitted_measurements.h"
 #include "jobs/parameters/range.h"
 
 namespace jobs {
 
-/// Keys of a request, and of one of its measurements and channels.
+/// Keys of a request.
 inline constexpr std::array<std::string_view, 14> kFitRequestKeys{
     "name",    "parameters", "over",       "measurements", "basis", "intervals", "replicates",
     "samples", "budget",     "population", "seed",         "reuse", "priority",  "executor"};
-inline constexpr std::array<std::string_view, 7> kFittedMeasurementKeys{
-    "id", "runs", "held_back_runs", "channels", "fitted", "held_back", "time_shift_s"};
-inline constexpr std::array<std::string_view, 2> kFittedChannelKeys{"weight", "noise"};
 
 inline constexpr std::size_t kMostFitParameters = 20;
-inline constexpr std::size_t kMostFittedMeasurements = 20;
 inline constexpr Range kFitBudgetRange{.minimum = 20, .maximum = 20'000};
 inline constexpr Range kFitPopulationRange{.minimum = 5, .maximum = 1000};
 inline constexpr Range kFitReplicatesRange{.minimum = 1, .maximum = 50};
 inline constexpr Range kFitSamplesRange{.minimum = 10, .maximum = 20'000};
 inline constexpr Range kFitSeedRange{.minimum = 0, .maximum = 4294967295.0};
-
-/// Finds a measurement by its id; empty if there is none.
-using FindMeasurement = std::function<std::optional<Measurement>(const std::string&)>;
 
 /// Reads {"name", "parameters", "over": {path: {"from", "to", "scale", "start"}}, "measurements": [{"id",
 /// "runs", "held_back_runs", "channels": {channel: {"weight", "noise"}}, "fitted": [[from, to]],

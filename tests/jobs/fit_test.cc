@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/fits/fit_signals.h"
 #include "jobs/measurements/measurement.h"
 #include "jobs/service.h"
 #include "tests/jobs/service_support.h"
@@ -359,6 +360,20 @@ TEST(Fit, GoesOnBesideJobsThatFail) {
   ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
   EXPECT_EQ(ended.at("points").at("lost"), 1);
   EXPECT_NEAR(parameter_of(ended, "restitution").at("value").get<double>(), 0.8, 0.01);
+}
+
+TEST(Fit, TakesSamplesOfJobsThatSuitTheMeasuredTimes) {
+  const auto at_steps = [](std::vector<double> steps) {
+    std::vector<double> time_s{0.1};
+    for (std::size_t k = 0; k < 30; ++k) time_s.push_back(time_s.back() + steps[k % steps.size()]);
+    return time_s;
+  };
+  EXPECT_EQ(jobs::find_output_rate(at_steps({0.004})), 1000);
+  EXPECT_EQ(jobs::find_output_rate(at_steps({1.0 / 300.0})), 1200);
+  EXPECT_EQ(jobs::find_output_rate(at_steps({1.0 / 2048.0})), 2048);
+  EXPECT_EQ(jobs::find_output_rate(at_steps({0.01, 0.01, 0.15})), 1000);
+  EXPECT_EQ(jobs::find_output_rate(at_steps({0.0005, 0.0005, 0.003})), 20'000);
+  EXPECT_EQ(jobs::find_output_rate(at_steps({1e-6, 1e-6, 3e-6})), 1e5);
 }
 
 TEST(Fit, KeepsAMeasurementThatItNeeds) {
