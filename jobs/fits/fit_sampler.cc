@@ -257,6 +257,7 @@ FitSampler::Points FitSampler::run_global() {
     if (!missing.empty()) return missing;
   }
   choose_best(complete_points());
+  if (is_trial_) return end_trial();
   if (is_point_wise()) begin_local(best_, 0);
   else summary_.stage = FitStage::kScatter;
   return {};

@@ -72,9 +72,14 @@ class FitSampler final : public StudySampler {
   void begin_scan();
   /// Another search, or the last least squares.
   void end_search();
+  /// After the search that shows of which kind the measured motion is.
+  Points end_trial();
+  void decide_basis();
   void set_basis(FitBasis basis);
-  /// Takes the divergence of points beside each other, if it is larger than the one known.
-  void judge_divergence_of(const Points& points);
+  /// Points and their neighbours that judge_divergence_at() needs.
+  [[nodiscard]] Points missing_neighbours_of(const Points& centres) const;
+  /// Divergence of jobs beside a point; empty if too few have succeeded.
+  [[nodiscard]] std::optional<SignalDivergence> judge_divergence_at(const FitPoint& centre);
   /// Points of the design whose features are nearest to the measured ones; fewer if fewer have succeeded.
   [[nodiscard]] Points nearest_by_features(std::size_t count) const;
   /// Sums of all points by features and their scale.
@@ -140,7 +145,9 @@ class FitSampler final : public StudySampler {
   double most_feature_sum_ = 0.0;  ///< of points as good as the best one
   Points base_points_;  ///< those that are no replicates
   FitPoint best_;       ///< empty: none has succeeded
-  FitPoint diverging_;  ///< point of the design beside which runs differ most; empty: none was judged
+  std::optional<SignalDivergence> divergence_;  ///< the largest one of the design; empty: none was judged
+  FitPoint diverging_;     ///< point of the design beside which runs differ most; empty: none was judged
+  bool is_trial_ = false;  ///< whether the search point by point is to show if motions diverge
   std::optional<PopulationSearch> population_;
   std::vector<double> box_sizes_;  ///< of the population search, as parts of the spans
   FitPoint box_centre_;

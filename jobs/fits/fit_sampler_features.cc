@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ constexpr std::size_t kDivergenceReplicates = 2;
 /// Points of the design with the nearest features, as far as the budget allows for each.
 constexpr std::size_t kDivergenceCentres = 3;
 constexpr std::size_t kBudgetOfCentre = 100;
+/// Difference of the best and the measured signals, over the latter, up to which a search has come near.
+constexpr double kNearMeasured = 0.2;
 constexpr std::size_t kScatterReplicates = 8;
 constexpr double kFeatureDesignShare = 0.15;  ///< of the points between which features choose the first basin
 /// Least scale of a feature, as part of its measured value.
@@ -33,40 +36,79 @@ constexpr double kScanReach = 3.0;  ///< of the scan by features, over that of t
 }  // namespace
 
 /// Point by point, quiet motions are nearer to a chaotic measurement than those of its kind. Their features
-/// are not.
+/// are not. Where only some of the design's motions diverge, a search point by point shows of which kind the
+/// measured one is.
 FitSampler::Points FitSampler::run_divergence() {
-  const bool has_features = !observer_->measured_features().empty();
   Points centres{best_};
   for (FitPoint& near : nearest_by_features(std::min(kDivergenceCentres, problem_.budget / kBudgetOfCentre)))
     if (near != best_) centres.push_back(std::move(near));
-  std::vector<Points> all;
-  Points missing;
-  for (const FitPoint& centre : centres) {
-    Points& points = all.emplace_back(Points{centre});
-    for (std::size_t k = 1; k <= kDivergenceReplicates; ++k)
-      points.push_back(replicate_of(problem_, centre, k));
-    for (FitPoint& point : missing_of(points))
-      if (std::ranges::find(missing, point) == missing.end()) missing.push_back(std::move(point));
-  }
+  Points missing = missing_neighbours_of(centres);
   if (!missing.empty()) return missing;
-  for (const Points& points : all) judge_divergence_of(points);
-  if (!summary_.divergence)
+  bool any_converges = false;
+  for (const FitPoint& centre : centres) {
+    const auto found = judge_divergence_at(centre);
+    if (!found) continue;
+    any_converges |= found->basis == FitBasis::kPointWise;
+    if (divergence_ && found->ratio <= divergence_->ratio) continue;
+    divergence_ = found;
+    diverging_ = centre;
+  }
+  if (!divergence_)
     summary_.remarks.emplace_back(
         "Jobs beside the best point of the design failed, so that divergence was not measured.");
-  set_basis(has_features && summary_.divergence ? summary_.divergence->basis : FitBasis::kPointWise);
+  const bool diverges = divergence_ && divergence_->basis == FitBasis::kFeatures;
+  if (diverges && any_converges && !observer_->measured_features().empty()) {
+    is_trial_ = true;
+    begin_global();
+  } else {
+    decide_basis();
+  }
   return {};
 }
 
-void FitSampler::judge_divergence_of(const Points& points) {
+FitSampler::Points FitSampler::end_trial() {
+  Points missing = missing_neighbours_of({best_});
+  if (!missing.empty()) return missing;
+  is_trial_ = false;
+  const auto at_best = judge_divergence_at(best_);
+  const std::vector<double> residuals = residuals_of_best();
+  const std::vector<double> measured(residuals.size(), 0.0);
+  const bool is_near = observer_->judge({measured, residuals}).ratio <= kNearMeasured;
+  if (is_near && at_best && at_best->basis == FitBasis::kPointWise) {
+    summary_.divergence = at_best;
+    summary_.basis = FitBasis::kPointWise;
+    begin_local(best_, 0);
+  } else {
+    population_.reset();
+    decide_basis();
+  }
+  return {};
+}
+
+/// The basis by the largest divergence, if signals have features.
+void FitSampler::decide_basis() {
+  summary_.divergence = divergence_;
+  const bool has_features = !observer_->measured_features().empty();
+  set_basis(has_features && divergence_ ? divergence_->basis : FitBasis::kPointWise);
+}
+
+FitSampler::Points FitSampler::missing_neighbours_of(const Points& centres) const {
+  Points points;
+  for (const FitPoint& centre : centres) {
+    points.push_back(centre);
+    for (std::size_t k = 1; k <= kDivergenceReplicates; ++k)
+      points.push_back(replicate_of(problem_, centre, k));
+  }
+  return missing_of(points);
+}
+
+std::optional<SignalDivergence> FitSampler::judge_divergence_at(const FitPoint& centre) {
   std::vector<std::vector<double>> residuals;
-  for (const FitPoint& point : points)
-    if (const auto found = residuals_.find(point); found != residuals_.end())
-      residuals.push_back(found->second);
-  if (residuals.size() < 2) return;
-  SignalDivergence found = observer_->judge(residuals);
-  if (summary_.divergence && found.ratio <= summary_.divergence->ratio) return;
-  summary_.divergence = std::move(found);
-  diverging_ = points.front();
+  for (std::size_t k = 0; k <= kDivergenceReplicates; ++k) {
+    auto found = residuals_of(k == 0 ? centre : replicate_of(problem_, centre, k));
+    if (found) residuals.push_back(std::move(*found));
+  }
+  return residuals.size() < 2 ? std::nullopt : std::optional(observer_->judge(residuals));
 }
 
 void FitSampler::set_basis(FitBasis basis) {

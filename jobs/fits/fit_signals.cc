@@ -19,7 +19,7 @@ constexpr double kLeastRate = 1000.0;
 constexpr double kLargestRate = 1e5;
 constexpr double kRateOverUneven = 10.0;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
 std::vector<TimeWindow> shift_windows(std::vector<TimeWindow> windows, double by_s) {
   for (TimeWindow& window : windows) {
@@ -50,10 +50,10 @@ void set_windows(MeasuredSignal& signal, const SignalSource& source, double shif
   signal.held_back = shift_windows(of.held_back, shift_s);
   // The steady window: what comes before depends on how the machine was started.
   const double steady_from = source.job_parameters.at("run_up_s").get<double>();
-  if (of.fitted.empty()) signal.fitted = {{.from_s = steady_from, .to_s = kNever}};
+  if (of.fitted.empty()) signal.fitted = {{.from_s = steady_from, .to_s = kNoEnd}};
   if (!of.held_back_runs.contains(source.run)) return;
   signal.held_back.insert(signal.held_back.end(), signal.fitted.begin(), signal.fitted.end());
-  signal.fitted = {{.from_s = kNever, .to_s = kNever}};
+  signal.fitted = {{.from_s = kNoEnd, .to_s = kNoEnd}};
 }
 
 void set_scale(FitSignal& signal, const json& options) {

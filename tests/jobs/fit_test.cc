@@ -325,6 +325,21 @@ TEST(Fit, JudgesDivergenceByMotionsLikeTheMeasuredOne) {
   EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.03);
 }
 
+// Motions of the design that diverge may have features like those of a measured motion that does not.
+TEST(Fit, ComparesSamplesOfAMotionThatConvergesBesideOthersThatDoNot) {
+  const TemporaryStore store;
+  ClosedForm form(0.005, 0.301);
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4})));
+  request["over"] = {{"clearance_mm", {{"from", 0.295}, {"to", 0.5}, {"start", 0.3005}}}};
+  request["parameters"]["restitution"] = 0.8;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_EQ(ended.at("basis"), "point_wise") << ended.at("divergence");
+  EXPECT_LT(ended.at("divergence").at("ratio"), 0.1);
+  EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.001);
+}
+
 TEST(Fit, GoesOnAfterARestartWithoutRepeatingAJob) {
   const TemporaryStore store;
   ClosedForm form;
