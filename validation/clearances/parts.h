@@ -19,6 +19,8 @@ namespace validation {
 [[nodiscard]] Findings compute_cut_elsewhere();
 /// A slider-crank whose slider has play in its guide, against published results.
 [[nodiscard]] Findings compute_published_slider_crank();
+/// A four-bar with play in three joints, against published results.
+[[nodiscard]] Findings compute_published_four_bar();
 /// The energy account of a linkage of four joints with clearance.
 [[nodiscard]] Findings compute_four_clearances();
 
