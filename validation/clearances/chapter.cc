@@ -10,7 +10,7 @@ Chapter clearances_chapter() {
       .title = "Clearance in joints of every kind",
       .text = R"(Surfaces alone hold a ball, a block or a piston in its joint. Impacts, pendulums and tilts have
 closed forms. A slider-crank moves alike wherever its loop is cut. With play in its guide it moves as
-Siconos publishes, and so does a four-bar with play in three joints.)",
+Siconos publishes, as does a four-bar with play in three joints.)",
       .parts = {{"ball_hits_its_socket", compute_ball_impacts},
                 {"ball_is_a_pendulum", compute_ball_pendulum},
                 {"block_bounces_between_walls", compute_block_impacts},
