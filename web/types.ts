@@ -65,8 +65,9 @@ type Group = {
   values: (string | number)[]; jobs: string[]; count: number; min: number; max: number; mean: number | null;
 };
 type Extremes = { min: number; max: number };
-/** Sweep on the page of its analyses, with its numeric axes and the chosen metric. */
-type AnalysedSweep = { sweep: Api.Sweep; numbers: string[]; isRpsup: boolean; metric: string };
+/** Sweep on the page of its analyses, with its numeric axes and the chosen metric. jobId: of one of its jobs. */
+type AnalysedSweep = { sweep: Api.Sweep; numbers: string[]; isRpsup: boolean; hasClearance: boolean; jobId: string;
+  metric: string };
 type Chart = Awaited<ReturnType<typeof import("/core/charts.js").makeChart>>;
 /** A curve over time, of one or two channels at its edges. */
 type Trace = {

@@ -155,10 +155,17 @@ std::vector<BlockGrowth> gather_blocks(std::span<const double> t, std::span<cons
   return blocks;
 }
 
-/// t_s, and the journal's position.
-std::optional<engine::Trajectory> find_orbit(const json& job_id, const FindTrajectory& find) {
-  return find(job_id.get<std::string>(), {.channels = {"journal_x_mm", "journal_y_mm"}, .from = {},
-                                          .to = {}});
+/// t_s, and the position of the journal in each joint with clearance. @throws WrongState without one
+std::optional<engine::Trajectory> find_orbit(const json& job_id, const RunReader& reader) {
+  const std::string id = job_id.get<std::string>();
+  TrajectoryQuery query;
+  const std::vector<std::string> kept = reader.list_channels(id);
+  for (const std::string& channel : kept)
+    if (channel.ends_with("journal_x_mm") || channel.ends_with("journal_y_mm"))
+      query.channels.push_back(channel);
+  if (!kept.empty() && query.channels.empty())
+    throw WrongState("job " + id + " has no joint with clearance, whose journal's positions are compared");
+  return reader.find(id, query);
 }
 
 Orbit positions_of(const engine::Trajectory& run) { return {run.columns.begin() + 1, run.columns.end()}; }
@@ -234,7 +241,7 @@ Divergence DivergenceMeasurement::finish() const {
   return divergence;
 }
 
-ResultTable make_lyapunov(const json& axes, const ResultTable& results, const FindTrajectory& find) {
+ResultTable make_lyapunov(const json& axes, const ResultTable& results, const RunReader& reader) {
   if (std::ranges::find(results.columns, "replicate") == results.columns.end())
     throw WrongState("the sweep has no replicates, which could part");
   if (results.rows.size() > kMostJobsOfDiagram) {
@@ -255,10 +262,10 @@ ResultTable make_lyapunov(const json& axes, const ResultTable& results, const Fi
     std::vector<json> cells = set.values;
     std::size_t pairs = 0;
     Divergence divergence;
-    if (const auto run = find_orbit(unperturbed[job], find)) {
+    if (const auto run = find_orbit(unperturbed[job], reader)) {
       DivergenceMeasurement measurement(run->columns.front(), positions_of(*run), begin);
       for (const std::size_t row : std::span(set.rows).subspan(1)) {
-        const auto neighbour = find_orbit(results.rows[row][job], find);
+        const auto neighbour = find_orbit(results.rows[row][job], reader);
         if (!neighbour) continue;
         ++pairs;
         measurement.add(positions_of(*neighbour));

@@ -71,12 +71,13 @@ class DivergenceMeasurement {
 };
 
 /// The largest Lyapunov exponent of each set of replicates of a sweep, from the runs that begin with slightly
-/// different stiffness beside the one that does not: by the journal's position in the bearing, after the
-/// run-up. A row a set: what is swept, pairs, pairs_diverged, exponent_1_s, exponent_low_1_s,
+/// different stiffness beside the one that does not: by the journals' positions in the joints with clearance,
+/// after the run-up. A row a set: what is swept, pairs, pairs_diverged, exponent_1_s, exponent_low_1_s,
 /// exponent_high_1_s, from_s and to_s, see Divergence.
 /// @param results  rows with job_id, replicate, the columns of `axes`, and run_up_s unless that is 0
-/// @throws WrongState if the sweep has no replicates, or more rows than kMostJobsOfDiagram
+/// @throws WrongState if the sweep has no replicates, more rows than kMostJobsOfDiagram, or a job without
+///     clearance
 [[nodiscard]] ResultTable make_lyapunov(const nlohmann::json& axes, const ResultTable& results,
-                                        const FindTrajectory& find);
+                                        const RunReader& reader);
 
 }  // namespace jobs

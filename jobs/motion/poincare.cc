@@ -16,16 +16,57 @@ namespace jobs {
 
 namespace {
 
-constexpr std::string_view kCrankAngle = "crank_angle_rad";
+constexpr const char* kCrankAngle = "crank_angle_rad";
 
 /// Channels that are the derivatives of another one; empty: there is none.
 struct Derivatives {
-  std::string_view channel, rate, acceleration;
+  std::string rate, acceleration;
 };
-constexpr std::array<Derivatives, 3> kDerivatives{
-    {{kCrankAngle, "crank_velocity_rad_s", ""},
-     {"slider_position_m", "slider_velocity_m_s", "slider_acceleration_m_s2"},
-     {"slider_velocity_m_s", "slider_acceleration_m_s2", ""}}};
+
+Derivatives derivatives_of(const std::string& channel) {
+  if (channel == kCrankAngle) return {"crank_velocity_rad_s", ""};
+  if (channel == "slider_position_m") return {"slider_velocity_m_s", "slider_acceleration_m_s2"};
+  if (channel == "slider_velocity_m_s") return {"slider_acceleration_m_s2", ""};
+  if (channel.ends_with("_rad") || channel.ends_with("_m")) return {channel + "_s", channel + "_s2"};
+  if (channel.ends_with("_rad_s") || channel.ends_with("_m_s")) return {channel + "2", ""};
+  return {};
+}
+
+bool is_among(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// Whether a channel is the position of a freedom: its rate is kept, too.
+bool is_freedom(const std::vector<std::string>& kept, const std::string& channel) {
+  return (channel.ends_with("_rad") || channel.ends_with("_m")) &&
+         is_among(kept, derivatives_of(channel).rate);
+}
+
+std::string choose_angle(const std::vector<std::string>& kept, const std::string& asked) {
+  if (!asked.empty()) {
+    if (asked.ends_with("_rad") && is_among(kept, asked)) return asked;
+    throw InvalidRequest(std::vector<Fault>{{"/angle", "must be a channel of these jobs in rad"}});
+  }
+  if (is_among(kept, kCrankAngle)) return kCrankAngle;
+  const auto first = std::ranges::find_if(kept, [&](const std::string& channel) {
+    return channel.ends_with("_rad") && is_freedom(kept, channel);
+  });
+  if (first == kept.end())
+    throw WrongState("the linkage has no freedom that turns, whose passages could make a section");
+  return *first;
+}
+
+std::vector<std::string> choose_channels(const std::vector<std::string>& kept, const std::string& angle) {
+  constexpr std::string_view kJournal = "journal_x_mm";
+  for (const std::string& channel : kept)
+    if (channel.ends_with(kJournal)) {
+      const std::string joint = channel.substr(0, channel.size() - kJournal.size());
+      return {channel, joint + "journal_y_mm"};
+    }
+  for (const std::string& channel : kept)
+    if (channel != angle && is_freedom(kept, channel)) return {channel, derivatives_of(channel).rate};
+  throw WrongState("the linkage has no freedom beside " + angle + ": say which channels to take");
+}
 
 const std::vector<double>* find_column_of(const engine::Trajectory& run, std::string_view key) {
   const auto found = std::ranges::find(run.channels, key, &engine::QuantityInfo::key);
@@ -41,6 +82,12 @@ bool is_smooth(std::string_view key) {
                              [&](std::string_view unit) { return key.ends_with(unit); });
 }
 
+void check_channel(const std::string& channel, const std::string& angle) {
+  if (channel != "t_s" && channel != angle) return;
+  throw InvalidRequest(std::vector<Fault>{
+      {"/channel", "must be a channel other than t_s and " + angle + ", which define the section"}});
+}
+
 /// A channel between its samples: the polynomial of least degree that has its values, and as many of its
 /// stored derivatives as there are, at both ends of the interval (Hermite interpolation, quintic or cubic:
 /// Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6). Without derivatives,
@@ -49,10 +96,9 @@ class Interpolant {
  public:
   Interpolant(const engine::Trajectory& run, std::size_t channel)
       : t_(run.columns.front()), x_(run.columns[channel]), smooth_(is_smooth(run.channels[channel].key)) {
-    const auto found = std::ranges::find(kDerivatives, run.channels[channel].key, &Derivatives::channel);
-    if (found == kDerivatives.end()) return;
-    rate_ = find_column_of(run, found->rate);
-    if (rate_ != nullptr) acceleration_ = find_column_of(run, found->acceleration);
+    const Derivatives names = derivatives_of(run.channels[channel].key);
+    rate_ = find_column_of(run, names.rate);
+    if (rate_ != nullptr) acceleration_ = find_column_of(run, names.acceleration);
   }
 
   /// @param k  the sample that ends the interval, 1 or more  @param u  of the interval, from 0 to 1
@@ -108,30 +154,33 @@ double find_passage(const Interpolant& angle, std::size_t k, double value, bool 
 
 }  // namespace
 
-std::vector<std::string> section_channels(std::vector<std::string> wanted) {
-  const std::vector<std::string> asked = wanted;
-  wanted.emplace_back(kCrankAngle);
-  for (const Derivatives& of : kDerivatives) {
-    if (of.channel != kCrankAngle && std::ranges::find(asked, of.channel) == asked.end()) continue;
-    wanted.emplace_back(of.rate);
-    if (!of.acceleration.empty()) wanted.emplace_back(of.acceleration);
+SectionChannels choose_section(const std::vector<std::string>& kept, const std::string& angle,
+                               std::vector<std::string> wanted) {
+  SectionChannels made{.angle = choose_angle(kept, angle), .wanted = std::move(wanted), .read = {}};
+  if (made.wanted.empty()) made.wanted = choose_channels(kept, made.angle);
+  made.read = made.wanted;
+  made.read.push_back(made.angle);
+  const std::vector<std::string> asked = made.read;
+  for (const std::string& channel : asked) {
+    const Derivatives names = derivatives_of(channel);
+    for (const std::string& name : {names.rate, names.acceleration})
+      if (is_among(kept, name) && !is_among(made.read, name)) made.read.push_back(name);
   }
-  return wanted;
+  return made;
 }
 
-engine::Trajectory take_section(const engine::Trajectory& run, double phase,
-                                const std::vector<std::string>& wanted) {
+engine::Trajectory take_section(const engine::Trajectory& run, const SectionChannels& channels,
+                                double phase) {
   const auto angle_at = static_cast<std::size_t>(
-      std::ranges::find(run.channels, kCrankAngle, &engine::QuantityInfo::key) - run.channels.begin());
+      std::ranges::find(run.channels, channels.angle, &engine::QuantityInfo::key) - run.channels.begin());
   const std::vector<double>& t = run.columns.at(0);
   const std::vector<double>& angle = run.columns.at(angle_at);
   const Interpolant angle_between(run, angle_at);
   engine::Trajectory section;
-  section.channels = {run.channels[0], {.key = "turn", .help = "turns of the crank since its place at rest"}};
+  section.channels = {run.channels[0], {.key = "turn", .help = "turns since the place at rest"}};
   std::vector<Interpolant> others;
   for (std::size_t c = 1; c < run.columns.size(); ++c) {
-    if (c == angle_at || (!wanted.empty() && std::ranges::find(wanted, run.channels[c].key) == wanted.end()))
-      continue;
+    if (c == angle_at || !is_among(channels.wanted, run.channels[c].key)) continue;
     section.channels.push_back(run.channels[c]);
     others.emplace_back(run, c);
   }
@@ -152,28 +201,30 @@ engine::Trajectory take_section(const engine::Trajectory& run, double phase,
 }
 
 ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& results,
-                             const BifurcationQuery& query, const FindTrajectory& find) {
+                             const BifurcationQuery& query, const RunReader& reader) {
   if (results.rows.size() > kMostJobsOfDiagram) {
     throw WrongState("the sweep has " + std::to_string(results.rows.size()) + " jobs; a diagram is made of " +
                      std::to_string(kMostJobsOfDiagram) + " at most");
-  }
-  if (query.channel == "t_s" || query.channel == kCrankAngle) {
-    throw InvalidRequest(std::vector<Fault>{
-        {"/channel", "must be a channel other than t_s and crank_angle_rad, which define the section"}});
   }
   ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
   std::vector<std::size_t> swept;
   for (const std::string& path : table.columns) swept.push_back(find_column(results, path, ""));
   const std::size_t run_up = find_column(results, "run_up_s", "");
   const std::size_t job = find_column(results, "job_id", "");
-  table.columns.insert(table.columns.end(), {"job_id", "t_s", query.channel});
+  std::string channel = query.channel;
   for (const auto& row : results.rows) {
-    const TrajectoryQuery wanted{.channels = section_channels({query.channel}),
+    const std::string job_id = row[job].get<std::string>();
+    const std::vector<std::string> kept = reader.list_channels(job_id);
+    if (kept.empty()) continue;
+    if (channel.empty()) channel = choose_section(kept, query.angle, {}).wanted.front();
+    const SectionChannels channels = choose_section(kept, query.angle, {channel});
+    check_channel(channel, channels.angle);
+    const TrajectoryQuery wanted{.channels = channels.read,
                                  .from = query.from ? *query.from : row[run_up].get<double>(),
                                  .to = {}};
-    const auto run = find(row[job].get<std::string>(), wanted);
+    const auto run = reader.find(job_id, wanted);
     if (!run) continue;
-    const engine::Trajectory section = take_section(*run, query.phase, {query.channel});
+    const engine::Trajectory section = take_section(*run, channels, query.phase);
     for (std::size_t k = 0; k < section.columns[0].size(); ++k) {
       std::vector<nlohmann::json> cells;
       for (const std::size_t column : swept) cells.push_back(row[column]);
@@ -183,6 +234,7 @@ ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& resu
       table.rows.push_back(std::move(cells));
     }
   }
+  table.columns.insert(table.columns.end(), {"job_id", "t_s", channel});
   return table;
 }
 

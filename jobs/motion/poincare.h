@@ -13,31 +13,46 @@
 
 namespace jobs {
 
-/// Channels that take_section needs for those that are wanted: these, crank_angle_rad, and the derivatives
-/// that a run keeps of both.
-[[nodiscard]] std::vector<std::string> section_channels(std::vector<std::string> wanted);
+/// Channels of a Poincare section.
+struct SectionChannels {
+  std::string angle;                ///< whose passages make the section
+  std::vector<std::string> wanted;  ///< of the section
+  std::vector<std::string> read;    ///< these, the angle, and the derivatives of both that a run keeps
+};
 
-/// The state of a run once a turn, whenever the crank passes an angle. Instant and state are those of
-/// polynomials through the samples and their stored derivatives: the error falls with the 4th power of the
-/// sampling interval, of a position with rate and acceleration with the 6th (as far as the instant is right),
-/// of forces, accelerations and velocities without derivatives with the 2nd.
+/// @param kept    channels of the run
+/// @param angle   empty: the crank's, of a described linkage that of the first freedom that turns
+/// @param wanted  empty: the journal's position, of a described linkage that in its first joint with
+///     clearance, or else the first freedom beside the angle, and its rate
+/// @throws InvalidRequest ("/angle"); WrongState if the linkage has no such channels
+[[nodiscard]] SectionChannels choose_section(const std::vector<std::string>& kept, const std::string& angle,
+                                             std::vector<std::string> wanted);
+
+/// The state of a run once a turn, whenever the crank, or another freedom that turns, passes an angle. Instant
+/// and state are those of polynomials through the samples and their stored derivatives: the error falls with
+/// the 4th power of the sampling interval, of a position with rate and acceleration with the 6th (as far as
+/// the instant is right), of forces, accelerations and velocities without derivatives with the 2nd.
 /// Source: M. Henon, On the numerical computation of Poincare maps, Physica D 5 (1982) 412-414, asks for the
 /// crossing to the accuracy of the integration; here as accurately as samples allow.
-/// @param run  t_s first, crank_angle_rad, what else is wanted, and derivatives of these if there are any
+/// @param run  t_s first, and the channels to read
 /// @param phase  the angle, [rad]
-/// @param wanted  channels; empty: all of the run's
-/// @returns t_s, turn (its number, from the crank's place at rest) and what else was wanted; a row a turn
-[[nodiscard]] engine::Trajectory take_section(const engine::Trajectory& run, double phase,
-                                              const std::vector<std::string>& wanted = {});
+/// @returns t_s, turn (its number, from the place at rest) and what else is wanted; a row a turn
+[[nodiscard]] engine::Trajectory take_section(const engine::Trajectory& run, const SectionChannels& channels,
+                                              double phase);
 
-/// Finds channels of a job; empty if it has none.
-using FindTrajectory =
-    std::function<std::optional<engine::Trajectory>(const std::string& job_id, const TrajectoryQuery& query)>;
+/// Access to the runs of a sweep's jobs, by a job's id.
+struct RunReader {
+  /// Channels of a query; empty if the job has no trajectory.
+  std::function<std::optional<engine::Trajectory>(const std::string&, const TrajectoryQuery&)> find;
+  /// Names of all channels; none of a job that is not there.
+  std::function<std::vector<std::string>(const std::string&)> list_channels;
+};
 
 /// Query of a bifurcation diagram.
 struct BifurcationQuery {
-  std::string channel = "journal_x_mm";
-  double phase = 0.0;          ///< of the crank, [rad]
+  std::string channel{};       ///< empty: as choose_section() chooses
+  std::string angle{};         ///< the same
+  double phase = 0.0;          ///< of the angle, [rad]
   std::optional<double> from;  ///< [s]; empty: from the end of each job's run-up on
 };
 
@@ -45,9 +60,9 @@ inline constexpr std::size_t kMostJobsOfDiagram = 1000;
 
 /// A channel once a turn for all jobs of a sweep: rows of what is swept, job_id, t_s and the channel.
 /// @param results  rows with job_id, the columns of `axes` and run_up_s
-/// @throws InvalidRequest ("/channel", and what find throws); WrongState if there are more than
-///     kMostJobsOfDiagram rows
+/// @throws InvalidRequest ("/channel", and what the reader throws); WrongState if there are more than
+///     kMostJobsOfDiagram rows, and what choose_section() throws
 [[nodiscard]] ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& results,
-                                           const BifurcationQuery& query, const FindTrajectory& find);
+                                           const BifurcationQuery& query, const RunReader& reader);
 
 }  // namespace jobs

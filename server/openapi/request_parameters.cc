@@ -82,11 +82,15 @@ std::vector<RequestParameter> make_query_parameters() {
       {"surrogate_x", "query", "x", "The number along x; the first that the sweep varies if left out", kText},
       {"surrogate_y", "query", "y", "The number along y; the next that the sweep varies if left out", kText},
       {"channel", "query", "channel",
-       "The channel; journal_x_mm of sections and slider_acceleration_m_s2 of spectra if left out", kText},
+       "The channel; if left out, the journal's or the first freedom's in sections, and "
+       "slider_acceleration_m_s2 in spectra", kText},
+      {"angle", "query", "angle",
+       "The channel in rad whose passages make the section; if left out, crank_angle_rad or the first freedom "
+       "of a described linkage that turns", kText},
       {"phase_rad",
        "query",
        "phase_rad",
-       "The angle of the crank at which a turn is looked at",
+       "The value of the angle at which a turn is looked at",
        {{"type", "number"}, {"default", 0}}},
       {"section_from",
        "query",

@@ -16,6 +16,7 @@
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"
 #include "jobs/paper/paper_statements.h"
+#include "jobs/requests/parameters.h"
 #include "jobs/results/csv.h"
 #include "jobs/results/table_groups.h"
 #include "jobs/results/table_json.h"
@@ -89,28 +90,20 @@ std::string metric_of(const Query& query, const SweepAndResults& found) {
   return jobs::choose_metric(found.results, query.text("metric").value_or(""));
 }
 
-/// Channels of a job's trajectory, for an analysis of channels that only jobs of the RPSUP linkage have.
-/// @param what  name of the quantity in the error for a job of another linkage
-std::optional<engine::Trajectory> find_rpsup_trajectory(const RequestContext& context, const std::string& id,
-                                                        const jobs::TrajectoryQuery& part, const char* what) {
-  try {
-    return context.service.find_trajectory(id, part);
-  } catch (const jobs::InvalidRequest& invalid) {
-    const bool known = !invalid.faults().front().pointer.starts_with("/channels");
-    const auto job = known ? std::nullopt : context.service.find_job(id);
-    if (!job || !jobs::describes_linkage(job->at("parameters"))) throw;
-    throw jobs::WrongState(std::string("only jobs of the RPSUP linkage have ") + what + "; job " + id +
-                           " describes its own linkage");
-  }
+/// Names of all channels of a job; none of a job that is not there.
+std::vector<std::string> list_channels(const RequestContext& context, const std::string& id) {
+  std::vector<std::string> names;
+  if (const auto job = context.service.find_job(id))
+    for (const engine::QuantityInfo& channel : jobs::channel_table(jobs::to_job_spec(job->at("parameters"))))
+      names.push_back(channel.key);
+  return names;
 }
 
-jobs::FindTrajectory trajectory_finder(const RequestContext& context, const char* what) {
-  return [&context, what](const std::string& job, const jobs::TrajectoryQuery& query) {
-    return find_rpsup_trajectory(context, job, query, what);
-  };
+jobs::RunReader make_run_reader(const RequestContext& context) {
+  return {.find = [&context](const std::string& id, const jobs::TrajectoryQuery& query)
+              { return context.service.find_trajectory(id, query); },
+          .list_channels = [&context](const std::string& id) { return list_channels(context, id); }};
 }
-
-constexpr const char* kSection = "crank_angle_rad, which Poincare sections need";
 
 /// The error for a job without a trajectory, or for no job.
 HttpError no_trajectory(const RequestContext& context) {
@@ -134,9 +127,14 @@ auto with_one_channel(const Ask& ask) {
 
 /// Channels of a wear map. Older programs did not keep all of them.
 std::optional<engine::Trajectory> find_wear_trajectory(const RequestContext& context,
-                                                       const jobs::TrajectoryQuery& part) {
+                                                       const nlohmann::json& parameters,
+                                                       jobs::TrajectoryQuery part) {
+  if (jobs::describes_linkage(parameters))
+    throw jobs::WrongState("only jobs of the RPSUP linkage have a map of the bore's wear; job " + context.id +
+                           " describes its own linkage");
+  part.channels = jobs::wear_channels(parameters);
   try {
-    return find_rpsup_trajectory(context, context.id, part, "a map of the bore's wear");
+    return context.service.find_trajectory(context.id, part);
   } catch (const jobs::InvalidRequest& invalid) {
     const bool kept = !invalid.faults().front().pointer.starts_with("/channels");
     if (!kept) throw jobs::WrongState("the job was computed by a program that did not keep its sliding work");
@@ -233,16 +231,16 @@ Response get_paper(const RequestContext& context) {
 }
 
 Response get_bifurcation(const RequestContext& context) {
-  Query query(context.request, {"channel", "phase_rad", "from", "format"});
+  Query query(context.request, {"channel", "angle", "phase_rad", "from", "format"});
   const TableFormat format = find_row_format(context.request, query);
   jobs::BifurcationQuery wanted;
-  wanted.channel = query.text("channel").value_or(wanted.channel);
+  wanted.channel = query.text("channel").value_or("");
+  wanted.angle = query.text("angle").value_or("");
   wanted.phase = query.number("phase_rad").value_or(wanted.phase);
   wanted.from = query.number("from");
   const auto table = run_analysis(context, query, find_with_run_up, [&](const SweepAndResults& found) {
     return with_one_channel([&] {
-      return make_bifurcation(found.sweep.at("axes"), found.results, wanted,
-                              trajectory_finder(context, kSection));
+      return make_bifurcation(found.sweep.at("axes"), found.results, wanted, make_run_reader(context));
     });
   });
   return make_rows(context, format, table, "bifurcation");
@@ -252,8 +250,7 @@ Response get_lyapunov(const RequestContext& context) {
   Query query(context.request, {"format"});
   const TableFormat format = find_row_format(context.request, query);
   const auto table = run_analysis(context, query, find_with_run_up, [&](const SweepAndResults& found) {
-    return make_lyapunov(found.sweep.at("axes"), found.results,
-                         trajectory_finder(context, "a journal, whose positions this analysis compares"));
+    return make_lyapunov(found.sweep.at("axes"), found.results, make_run_reader(context));
   });
   return make_rows(context, format, table, "lyapunov");
 }
@@ -296,17 +293,22 @@ Response get_spectrum(const RequestContext& context) {
 }
 
 Response get_poincare(const RequestContext& context) {
-  Query query(context.request, {"channels", "phase_rad", "from", "to", "format"});
+  Query query(context.request, {"channels", "angle", "phase_rad", "from", "to", "format"});
   const TableFormat format = find_column_format(context.request, query);
-  std::vector<std::string> channels = query.list("channels");
-  if (channels.empty()) channels = {"journal_x_mm", "journal_y_mm"};
-  const jobs::TrajectoryQuery wanted{.channels = jobs::section_channels(channels),
-                                     .from = query.number("from"), .to = query.number("to")};
+  const std::vector<std::string> asked = query.list("channels");
+  const std::string angle = query.text("angle").value_or("");
+  jobs::TrajectoryQuery wanted{.channels = {}, .from = query.number("from"), .to = query.number("to")};
   const double phase = query.number("phase_rad").value_or(0.0);
-  const auto run =
-      query.check_and([&] { return find_rpsup_trajectory(context, context.id, wanted, kSection); });
+  jobs::SectionChannels channels;
+  const auto run = query.check_and([&]() -> std::optional<engine::Trajectory> {
+    const std::vector<std::string> kept = list_channels(context, context.id);
+    if (kept.empty()) return std::nullopt;
+    channels = jobs::choose_section(kept, angle, asked);
+    wanted.channels = channels.read;
+    return context.service.find_trajectory(context.id, wanted);
+  });
   if (!run) throw no_trajectory(context);
-  return make_columns(context, format, jobs::take_section(*run, phase, channels), "poincare");
+  return make_columns(context, format, jobs::take_section(*run, channels, phase), "poincare");
 }
 
 Response get_wear(const RequestContext& context) {
@@ -318,12 +320,12 @@ Response get_wear(const RequestContext& context) {
       query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
   wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
   wanted.worn_clearance = query.number("worn_clearance_mm");
-  jobs::TrajectoryQuery part{.channels = {}, .from = query.number("from"), .to = query.number("to")};
+  const jobs::TrajectoryQuery part{
+      .channels = {}, .from = query.number("from"), .to = query.number("to")};
   query.check();
   const auto job = context.service.find_job(context.id);
   if (!job) throw HttpError(404, "there is no job " + context.id);
-  part.channels = jobs::wear_channels(job->at("parameters"));
-  const auto run = find_wear_trajectory(context, part);
+  const auto run = find_wear_trajectory(context, job->at("parameters"), part);
   if (!run) throw no_trajectory(context);
   return make_rows(context, format, make_wear_map(job->at("parameters"), *run, wanted), "wear");
 }

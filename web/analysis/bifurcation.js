@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A channel once a turn over a number that is swept: one line of points where the motion repeats itself, a cloud
 // where it does not.
-import { findAnalysis } from "/core/api.js";
+import { findAnalysis, findTrajectory } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, pointOf, titleOf } from "/core/format.js";
@@ -10,16 +10,26 @@ import { quantityChoice } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
 
-const channels = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm",
+const ofRpsup = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm",
   "contact_force_n"];
+
+/// Channels of a described linkage: journals first, then the others without poses, extremes and the time.
+/** @param {string} jobId  @param {AbortSignal} signal */
+async function findChannels(jobId, signal) {
+  const kept = Object.keys(await findTrajectory(jobId, { from: 0, to: 0 }, signal))
+    .filter((name) => name !== "t_s" && !/^pose_|_(min|max)_/.test(name));
+  const journals = kept.filter((name) => /_journal_[xy]_mm$/.test(name));
+  return [...journals, ...kept.filter((name) => !journals.includes(name))];
+}
 
 /**
  * @param {HTMLElement} element
  * @param {AnalysedSweep} analysed
  * @param {AbortSignal} signal
  */
-export async function bifurcationCard(element, { sweep, numbers }, signal) {
+export async function bifurcationCard(element, { sweep, numbers, isRpsup, jobId }, signal) {
   let along = numbers[0];
+  const channels = isRpsup ? ofRpsup : await findChannels(jobId, signal);
   let channel = channels[0];
   let rows = [];
   const drawing = h("div", { class: "chart tall" });
@@ -33,7 +43,7 @@ export async function bifurcationCard(element, { sweep, numbers }, signal) {
   let chart = null;
   await load(channel);
   if (rows.length === 0) {
-    element.replaceChildren(h("p", {}, "No crank revolution is complete after the run-up of these jobs."));
+    element.replaceChildren(h("p", {}, "No revolution is complete after the run-up of these jobs."));
     return null;
   }
   element.replaceChildren(h("p", { class: "actions" },
@@ -41,7 +51,7 @@ export async function bifurcationCard(element, { sweep, numbers }, signal) {
     quantityChoice("Channel", "channels", channels, channel,
       (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
   chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel),
-    "Bifurcation diagram: the channel once per crank revolution", signal);
+    "Bifurcation diagram: the channel once per revolution", signal);
   return chart;
 }
 

@@ -8,7 +8,7 @@ import { latest } from "/core/live.js";
 import { quantityChoice } from "/core/quantities.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
-import { isDescribed, mainAcceleration } from "/run/described.js";
+import { clearanceJoints, isDescribed, mainAcceleration, turningChannels } from "/run/described.js";
 
 /// @param columns  channels that may be chosen
 /** @param {Api.Job} job  @param {string[]} columns  @param {AbortSignal} signal */
@@ -16,8 +16,10 @@ export function motionCard(job, columns, signal) {
   const body = h("div");
   const open = () => {
     if (!details.open || body.hasChildNodes()) return;
-    const parts = [spectrum(job, columns, signal), !isDescribed(job) && job.parameters.clearance_mm > 0
-      ? section(job, signal) : null].filter(Boolean);
+    const joints = clearanceJoints(job, columns);
+    const angles = isDescribed(job) ? turningChannels(columns) : ["crank_angle_rad"];
+    const parts = [spectrum(job, columns, signal), joints.length > 0 && angles.length > 0
+      ? section(job, joints, angles, signal) : null].filter(Boolean);
     body.replaceChildren(...parts.map(({ element }) => element));
     for (const part of parts) part.fill()
       .catch((error) => error.name !== "AbortError"
@@ -67,43 +69,64 @@ function spectrum(job, columns, signal) {
     { await load(); chart = await makeChart(drawing, option, "Amplitude spectrum", signal); } };
 }
 
-/// The journal once a turn; the circle is the clearance.
-/** @param {Api.Job} job  @param {AbortSignal} signal */
-function section(job, signal) {
-  const view = { phase: 0 };
+/// A journal once a turn; the dashed outline is the clearance.
+/**
+ * @param {Api.Job} job
+ * @param {ReturnType<typeof clearanceJoints>} joints
+ * @param {string[]} angles  channels that turn
+ * @param {AbortSignal} signal
+ */
+function section(job, joints, angles, signal) {
+  const view = { phase: 0, joint: joints[0], angle: angles[0] };
+  /** @type {{ x: number[], y: number[], t_s: number[] } | null} */
   let found = null;
   let chart = null;
+  const channelsOf = ({ prefix }) => [`${prefix}journal_x_mm`, `${prefix}journal_y_mm`];
   const drawing = h("div", { class: "chart square" });
   const trouble = h("p", { class: "trouble", role: "status" });
   const load = latest(async (current) => {
-    found = await findMotion(job.id, "poincare", { phase_rad: view.phase, from: job.parameters.run_up_s }, current);
+    const [x, y] = channelsOf(view.joint);
+    const answer = await findMotion(job.id, "poincare", { channels: `${x},${y}`, angle: view.angle,
+      phase_rad: view.phase, from: job.parameters.run_up_s }, current);
+    found = { x: answer[x], y: answer[y], t_s: answer.t_s };
     trouble.textContent = "";
     chart?.draw();
   }, signal);
-  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": "Crank angle [rad]",
-    onchange: () => { view.phase = Number(slider.value); load()
-      .catch((error) => { trouble.textContent = error.message; }); } });
+  const set = (key) => (value) =>
+    { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
+  const label = isDescribed(job) ? "Angle [rad]" : "Crank angle [rad]";
+  const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": label,
+    onchange: () => set("phase")(Number(slider.value)) });
+  const choices = [
+    joints.length > 1 && choice("Joint", joints.map(({ name }) => name), view.joint.name,
+      (name) => set("joint")(joints.find((joint) => joint.name === name))),
+    angles.length > 1 && quantityChoice("Angle of", "channels", angles, view.angle, set("angle")),
+    h("label", { class: "choice" }, h("span", {}, label), slider)].filter(Boolean);
   const element = h("div", {}, h("div", { class: "head" }, h("h3", {}, "Poincaré section of the journal"),
-    saveButtons(() => chart, () => `${job.id} section`)),
-    h("p", { class: "actions" }, h("label", { class: "choice" }, h("span", {}, "Crank angle [rad]"), slider)), trouble,
-    drawing);
-  const radius = job.parameters.clearance_mm;
-  const circle = Array.from({ length: 73 },
-    (_, k) => [radius * Math.cos((k * Math.PI) / 36), radius * Math.sin((k * Math.PI) / 36)]);
-  // As much room beside the drawing as above and below it, and axes of one length: the circle is round.
-  const half = () => 1.1 * Math.max(radius, ...[...found.journal_x_mm, ...found.journal_y_mm].map(Math.abs));
+    saveButtons(() => chart, () => `${job.id} section`)), h("p", { class: "actions" }, choices), trouble, drawing);
+  // As much room beside the drawing as above and below it, and axes of one length: a circle is round.
+  const half = () => 1.1 * Math.max(view.joint.clearance.x, view.joint.clearance.y,
+    ...[...found.x, ...found.y].map(Math.abs));
   const ends = () => ({ min: -half(), max: half(),
     axisLabel: { color: colour("text"), hideOverlap: true, showMinLabel: false, showMaxLabel: false,
       formatter: (value) => number(value, 2) } });
   const option = () => found
     && ({ grid: { left: 75, right: 20, top: 20, bottom: 75 },
       tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
-    xAxis: acrossAxis(titleOf("journal_x_mm"), ends()), yAxis: valueAxis(titleOf("journal_y_mm"), ends()),
+    xAxis: acrossAxis(titleOf(channelsOf(view.joint)[0]), ends()),
+    yAxis: valueAxis(titleOf(channelsOf(view.joint)[1]), ends()),
     series: [{ type: "line", silent: true, showSymbol: false, color: colour("quiet"),
-      lineStyle: { width: 1, type: "dashed" }, data: circle },
+      lineStyle: { width: 1, type: "dashed" }, data: outline(view.joint.clearance) },
       { type: "scatter", symbolSize: 7, color: lineColour(0),
-        data: found.t_s.map((t, k) => [found.journal_x_mm[k], found.journal_y_mm[k], t]) }] });
+        data: found.t_s.map((t, k) => [found.x[k], found.y[k], t]) }] });
   return { element, fill: async () =>
     { await load(); chart = await makeChart(drawing, option,
-      "Poincaré section: the journal's centre once per crank revolution", signal); } };
+      "Poincaré section: the journal's centre once per revolution", signal); } };
+}
+
+/// Closed line around the places that a journal can have.
+/** @param {import("/run/described.js").Clearance} clearance */
+function outline({ isRound, x, y }) {
+  if (!isRound) return [[-x, -y], [x, -y], [x, y], [-x, y], [-x, -y]];
+  return Array.from({ length: 73 }, (_, k) => [x * Math.cos((k * Math.PI) / 36), x * Math.sin((k * Math.PI) / 36)]);
 }

@@ -22,7 +22,8 @@ export async function show(main, { id, query, signal }) {
   const metrics = metricsOf(rows, sweep.axes);
   const isRpsup = metrics.includes(usual);
   const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
-  const analysed = { sweep, numbers, isRpsup, metric: metrics.find((metric) => metric === query.get("metric"))
+  const analysed = { sweep, numbers, isRpsup, jobId: rows[0].job_id,
+    hasClearance: metrics.some((metric) => metric.endsWith("contact_time_ratio")), metric: metrics.find((metric) => metric === query.get("metric"))
     ?? (isRpsup ? usual : usualMetric(metrics, rows, sweep)) };
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: analysis of ${name}`;
@@ -48,7 +49,7 @@ export async function show(main, { id, query, signal }) {
  *   Promise<Chart | null>} MakeCard
  */
 /** @param {AnalysedSweep} analysed  @returns {[string, string, MakeCard][]} */
-function cardsFor({ sweep, numbers, isRpsup }) {
+function cardsFor({ sweep, numbers, isRpsup, hasClearance }) {
   const type = sweep.request.design?.type;
   /** @type {([string, string, MakeCard] | false | undefined | "")[]} */
   const cards = [
@@ -66,9 +67,8 @@ function cardsFor({ sweep, numbers, isRpsup }) {
     numbers.length > 0 && ["Surrogate",
       "Polynomial chaos expansion fitted to the jobs, with its error of leave-one-out cross-validation.",
       surrogateCard],
-    isRpsup && numbers.length > 0 && ["Bifurcation diagram", "A channel once per crank revolution, for each job.",
-      bifurcationCard],
-    isRpsup && sweep.request.replicates
+    numbers.length > 0 && ["Bifurcation diagram", "A channel once per revolution, for each job.", bifurcationCard],
+    hasClearance && sweep.request.replicates
       && ["Largest Lyapunov exponent",
         "Divergence rate of runs with nearly equal contact stiffness; an interval above 0 means chaos.", lyapunovCard],
   ];

@@ -47,6 +47,11 @@ export function mainAcceleration(channels) {
     ?? channels[0];
 }
 
+/// Freedoms that turn.
+/** @type {(channels: string[]) => string[]} */
+export const turningChannels = (channels) =>
+  channels.filter((name) => name.endsWith("_rad") && channels.includes(`${name}_s`));
+
 /** @type {(channels: string[]) => string[]} */
 export const driveChannels = (channels) => channels.filter((name) => /_drive_n(_m)?$/.test(name));
 

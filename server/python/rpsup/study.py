@@ -125,10 +125,13 @@ class Job(Work):
         query = {"channel": channel, "window": window, "from": from_s, "to": to_s}
         return self._columns("spectrum", query, frame)
 
-    def poincare(self, channels: Names = None, phase_rad: Number = None,
-                 from_s: Number = None, to_s: Number = None, frame: bool = False) -> Any:
-        """Poincaré section: channels once a turn, when the crank passes `phase_rad`, as columns."""
-        query = {"channels": channels, "phase_rad": phase_rad, "from": from_s, "to": to_s}
+    def poincare(self, channels: Names = None, phase_rad: Number = None, from_s: Number = None,
+                 to_s: Number = None, frame: bool = False, angle: Text = None) -> Any:
+        """Poincaré section: channels once a turn, when the crank passes `phase_rad`, as columns.
+
+        `angle` names another channel, in rad, in the place of the crank's.
+        """
+        query = {"channels": channels, "angle": angle, "phase_rad": phase_rad, "from": from_s, "to": to_s}
         return self._columns("poincare", query, frame)
 
     def wear(self, wear_coefficient_m2_n: Number = None, sectors: Whole = None,

@@ -77,9 +77,10 @@ class Sweep(Study):
         return self._table("flexibility", {"metric": metric})
 
     def bifurcation(self, channel: Text = None, phase_rad: Number = None,
-                    from_s: Number = None) -> DataFrame:
+                    from_s: Number = None, angle: Text = None) -> DataFrame:
         """Poincaré sections of one channel for all jobs: a row for each turn of each job."""
-        return self._table("bifurcation", {"channel": channel, "phase_rad": phase_rad, "from": from_s})
+        query = {"channel": channel, "angle": angle, "phase_rad": phase_rad, "from": from_s}
+        return self._table("bifurcation", query)
 
     def lyapunov(self) -> DataFrame:
         """Largest Lyapunov exponent of each set of replicates, [1/s], with its interval of 95 %."""

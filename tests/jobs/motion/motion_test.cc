@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
@@ -19,6 +20,8 @@
 
 namespace jobs_tests {
 namespace {
+
+using ::testing::ElementsAre;
 
 using jobs::Window;
 using std::numbers::pi;
@@ -98,7 +101,9 @@ TEST(TakeSection, HasTheInstantsAtWhichTheCrankPasses) {
     angle.push_back(3.0 * t.back());
     x.push_back(7.0 * t.back());
   }
-  const auto section = jobs::take_section(run_of({"t_s", "crank_angle_rad", "x_mm"}, {t, angle, x}), 1.0);
+  const jobs::SectionChannels channels{.angle = "crank_angle_rad", .wanted = {"x_mm"}, .read = {}};
+  const auto section =
+      jobs::take_section(run_of({"t_s", "crank_angle_rad", "x_mm"}, {t, angle, x}), channels, 1.0);
   ASSERT_EQ(section.columns[0].size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
     const double passed = (1.0 + 2.0 * pi * static_cast<double>(k)) / 3.0;
@@ -108,10 +113,9 @@ TEST(TakeSection, HasTheInstantsAtWhichTheCrankPasses) {
   }
   EXPECT_EQ(section.channels[2].key, "x_mm");
   for (double& a : angle) a = -a;
-  EXPECT_EQ(
-      jobs::take_section(run_of({"t_s", "crank_angle_rad", "x_mm"}, {t, angle, x}), 1.0).columns[0].size(),
-      3U)
-      << "backwards";
+  const auto back =
+      jobs::take_section(run_of({"t_s", "crank_angle_rad", "x_mm"}, {t, angle, x}), channels, 1.0);
+  EXPECT_EQ(back.columns[0].size(), 3U) << "backwards";
 }
 
 /// A crank that turns by w t + a sin(3 t), a slider at sin(7 t), a journal at cos(5 t), and a force like it.
@@ -132,8 +136,10 @@ engine::Trajectory known_motion(double w, double a, double dt) {
 
 /// Largest errors of a section of that motion: instants, slider, journal, force.
 std::array<double, 4> section_errors(double w, double a, double dt) {
-  const auto section = jobs::take_section(known_motion(w, a, dt), 1.0,
-                                          {"slider_position_m", "journal_x_mm", "contact_force_n"});
+  const jobs::SectionChannels channels{.angle = "crank_angle_rad",
+                                       .wanted = {"slider_position_m", "journal_x_mm", "contact_force_n"},
+                                       .read = {}};
+  const auto section = jobs::take_section(known_motion(w, a, dt), channels, 1.0);
   std::array<double, 4> errors{};
   for (std::size_t k = 0; k < section.columns[0].size(); ++k) {
     const double passed = 1.0 + 2.0 * pi * section.columns[1][k];
@@ -161,12 +167,43 @@ TEST(TakeSection, ConvergesWithTheOrderOfItsPolynomials) {
 }
 
 TEST(TakeSection, KeepsWhatIsWantedOnly) {
-  const auto section = jobs::take_section(known_motion(17.0, 2.0, 0.01), 1.0, {"journal_x_mm"});
+  const jobs::SectionChannels channels{.angle = "crank_angle_rad", .wanted = {"journal_x_mm"}, .read = {}};
+  const auto section = jobs::take_section(known_motion(17.0, 2.0, 0.01), channels, 1.0);
   ASSERT_EQ(section.channels.size(), 3U);
   EXPECT_EQ(section.channels[2].key, "journal_x_mm");
-  EXPECT_EQ(jobs::section_channels({"slider_position_m"}),
-            (std::vector<std::string>{"slider_position_m", "crank_angle_rad", "crank_velocity_rad_s",
-                                      "slider_velocity_m_s", "slider_acceleration_m_s2"}));
+}
+
+TEST(ChooseSection, ReadsTheDerivativesOfWhatIsWanted) {
+  const std::vector<std::string> kept{
+      "t_s",          "crank_angle_rad", "crank_velocity_rad_s", "slider_position_m", "slider_velocity_m_s",
+      "journal_x_mm", "journal_y_mm",    "slider_acceleration_m_s2"};
+  const auto slider = jobs::choose_section(kept, "", {"slider_position_m"});
+  EXPECT_EQ(slider.angle, "crank_angle_rad");
+  EXPECT_THAT(slider.read, ElementsAre("slider_position_m", "crank_angle_rad", "slider_velocity_m_s",
+                                       "slider_acceleration_m_s2", "crank_velocity_rad_s"));
+  EXPECT_THAT(jobs::choose_section(kept, "", {}).wanted, ElementsAre("journal_x_mm", "journal_y_mm"));
+}
+
+TEST(ChooseSection, TakesTheFirstFreedomThatTurnsAndTheFirstLooseJoint) {
+  std::vector<std::string> kept{"t_s",       "guide_m",     "guide_m_s",    "guide_m_s2", "guide_force_x_n",
+                                "wheel_rad", "wheel_rad_s", "wheel_rad_s2", "rod_rad",    "rod_rad_s"};
+  const auto ideal = jobs::choose_section(kept, "", {});
+  EXPECT_EQ(ideal.angle, "wheel_rad");
+  EXPECT_THAT(ideal.wanted, ElementsAre("guide_m", "guide_m_s"));
+  EXPECT_THAT(ideal.read, ElementsAre("guide_m", "guide_m_s", "wheel_rad", "guide_m_s2", "wheel_rad_s",
+                                      "wheel_rad_s2"));
+  EXPECT_EQ(jobs::choose_section(kept, "rod_rad", {}).angle, "rod_rad");
+  kept.insert(kept.end(), {"pin_journal_x_mm", "pin_journal_y_mm", "end_journal_x_mm", "end_journal_y_mm"});
+  EXPECT_THAT(jobs::choose_section(kept, "", {}).wanted, ElementsAre("pin_journal_x_mm", "pin_journal_y_mm"));
+}
+
+TEST(ChooseSection, RefusesWhatDoesNotTurn) {
+  const std::vector<std::string> kept{"t_s", "guide_m", "guide_m_s", "wheel_rad", "wheel_rad_s"};
+  EXPECT_THROW((void)jobs::choose_section(kept, "guide_m", {}), jobs::InvalidRequest);
+  EXPECT_THROW((void)jobs::choose_section(kept, "crank_rad", {}), jobs::InvalidRequest);
+  EXPECT_THROW((void)jobs::choose_section({"t_s", "guide_m", "guide_m_s"}, "", {"guide_m"}),
+               jobs::WrongState);
+  EXPECT_THROW((void)jobs::choose_section({"t_s", "wheel_rad", "wheel_rad_s"}, "", {}), jobs::WrongState);
 }
 
 /// An exponent's statistics over many sets of runs.

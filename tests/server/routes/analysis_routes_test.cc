@@ -3,8 +3,10 @@
 // rad in sample k of four.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -405,17 +407,58 @@ TEST(Analyses, SayWhichOnlyRpsupHas) {
   const std::string job =
       "/v1/jobs/" +
       json::parse(bench.call("GET", sweep + "/results").body).at(0).at("job_id").get<std::string>();
-  for (const std::string& path :
-       {sweep + "/bifurcation", sweep + "/lyapunov", job + "/poincare", job + "/wear"}) {
+  const std::vector<std::pair<std::string, std::string>> refused{
+      {sweep + "/bifurcation", "say which channels to take"},
+      {job + "/poincare", "say which channels to take"},
+      {sweep + "/lyapunov", "has no joint with clearance"},
+      {job + "/wear", "only jobs of the RPSUP linkage have"}};
+  for (const auto& [path, why] : refused) {
     const auto response = bench.call("GET", path);
     EXPECT_EQ(response.status, 409) << path;
-    EXPECT_NE(response.body.find("only jobs of the RPSUP linkage have"), std::string::npos) << response.body;
+    EXPECT_NE(response.body.find(why), std::string::npos) << response.body;
   }
   EXPECT_EQ(json::parse(bench.call("GET", job + "/spectrum", "", {{"channel", "x"}}).body)
                 .at("errors")
                 .at(0)
                 .at("pointer"),
             "/channel");
+}
+
+// A crank that turns every 0.05 s, less half a run-up of 0.02 s, with a pendulum on a pin with play.
+TEST(Analyses, TakeSectionsAndExponentsOfDescribedLinkages) {
+  Bench bench(jobs::engine_runner());
+  const std::string sweep =
+      "/v1/sweeps/" + bench.run(R"({"parameters": {"duration_s": 0.22, "run_up_s": 0.02, "linkage":
+    {"bodies": {"crank": {"mass_kg": 1, "inertia_kg_m2": [0.01, 0.01, 0.01]},
+                "bob": {"mass_kg": 1, "centre_of_mass_m": [0.1, 0, 0], "inertia_kg_m2": [0.001, 0.01, 0.01]}},
+     "joints": {"wheel": {"kind": "revolute", "from": "ground", "to": "crank",
+                          "drive": {"law": "run_up", "velocity_rad_s": 125.66370614359172}},
+                "pin": {"kind": "revolute", "from": "crank", "to": "bob", "at_m": [0.05, 0, 0],
+                        "clearance": {"clearance_mm": 0.1}}}}},
+    "sweep": {"restitution": [0.5, 0.9]}, "replicates": {"count": 2}})");
+  const json rows = rows_of(bench, sweep + "/bifurcation", {{"from", "0"}});
+  EXPECT_EQ(rows.size(), 16U) << "a passage every 0.05 s of four jobs";
+  EXPECT_TRUE(rows.at(0).contains("pin_journal_x_mm")) << rows.at(0);
+  const json exponents = rows_of(bench, sweep + "/lyapunov");
+  ASSERT_EQ(exponents.size(), 2U);
+  EXPECT_EQ(exponents.at(0).at("pairs"), 1);
+  const std::string job =
+      "/v1/jobs/" +
+      json::parse(bench.call("GET", sweep + "/results").body).at(0).at("job_id").get<std::string>();
+  const json section = rows_of(bench, job + "/poincare");
+  ASSERT_EQ(section.at("columns").at("t_s").size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double passage = 0.01 + 0.05 * static_cast<double>(k + 1);
+    EXPECT_NEAR(section.at("columns").at("t_s").at(k).get<double>(), passage, 1e-6);
+    EXPECT_LT(std::hypot(section.at("columns").at("pin_journal_x_mm").at(k).get<double>(),
+                         section.at("columns").at("pin_journal_y_mm").at(k).get<double>()),
+              0.15);
+  }
+  const json other = rows_of(bench, job + "/poincare", {{"angle", "pin_rad"}, {"channels", "wheel_rad_s"}});
+  EXPECT_TRUE(other.at("columns").contains("wheel_rad_s"));
+  const auto refused = bench.call("GET", job + "/poincare", "", {{"angle", "wheel_rad_s"}});
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), "/angle");
 }
 
 TEST(Analyses, AreOfWhatIsThere) {
