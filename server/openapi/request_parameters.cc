@@ -85,8 +85,8 @@ std::vector<RequestParameter> make_query_parameters() {
        "The channel; if left out, the journal's or the first freedom's in sections, and "
        "slider_acceleration_m_s2 in spectra", kText},
       {"angle", "query", "angle",
-       "The channel in rad whose passages make the section; if left out, crank_angle_rad or the first freedom "
-       "of a described linkage that turns", kText},
+       "The channel in rad whose passages make the section; if left out, crank_angle_rad or the first "
+       "freedom of a described linkage that turns", kText},
       {"phase_rad",
        "query",
        "phase_rad",
