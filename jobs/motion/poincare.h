@@ -31,7 +31,8 @@ struct SectionChannels {
 /// The state of a run once a turn, whenever the crank, or another freedom that turns, passes an angle.
 /// Instant and state are those of polynomials through the samples and their stored derivatives: the error
 /// falls with the 4th power of the sampling interval, of a position with rate and acceleration with the 6th
-/// (as far as the instant is right), of forces, accelerations and velocities without derivatives with the 2nd.
+/// (as far as the instant is right), of forces, accelerations and velocities without derivatives with the
+/// 2nd.
 /// Source: M. Henon, On the numerical computation of Poincare maps, Physica D 5 (1982) 412-414, asks for the
 /// crossing to the accuracy of the integration; here as accurately as samples allow.
 /// @param run  t_s first, and the channels to read

@@ -78,7 +78,6 @@ function spectrum(job, columns, signal) {
  */
 function section(job, joints, angles, signal) {
   const view = { phase: 0, joint: joints[0], angle: angles[0] };
-  /** @type {{ x: number[], y: number[], t_s: number[] } | null} */
   let found = null;
   let chart = null;
   const channelsOf = ({ prefix }) => [`${prefix}journal_x_mm`, `${prefix}journal_y_mm`];
