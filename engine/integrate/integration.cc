@@ -61,6 +61,7 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       control_(stepper_->error_exponent()),
       samples_(options.output_rate, options.duration),
       sliver_(sliver_of(options_)),
+      pace_check_(options.duration, options.step_limit),
       unstable_mode_limiter_(
           choose_stability_check_interval(mechanism, options_.integrator, system_.free_count()),
           choose_longest_step(mechanism, options_.integrator), system_.free_count()) {}
@@ -76,6 +77,9 @@ RunOutcome Integration::run(const Evaluation& assembled) {
     if (outcome_.steps >= options_.step_limit) {
       fail(RunStatus::kStepLimit,
            "the run needs more than " + std::to_string(options_.step_limit) + " steps");
+    } else if (pace_check_.is_hopeless(outcome_.steps, start_.t)) {
+      fail(RunStatus::kStepLimit, "at the pace of its last million steps the run needs more than " +
+                                      std::to_string(options_.step_limit) + " steps");
     } else if (outcome_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t)) {
       fail(RunStatus::kStopped, "stopped on request");
     } else if (fixed ? try_fixed_step() : try_controlled_step()) {

@@ -7,6 +7,7 @@
 
 #include "engine/integrate/energy_control.h"
 #include "engine/integrate/observer.h"
+#include "engine/integrate/pace_check.h"
 #include "engine/integrate/run_outcome.h"
 #include "engine/integrate/sample_times.h"
 #include "engine/integrate/spherical_charts.h"
@@ -65,6 +66,7 @@ class Integration {
   SampleTimes samples_;
   /// Shortest fixed step; a shorter remainder is rounding, [s].
   double sliver_;
+  PaceCheck pace_check_;
   StepPoint start_, end_;
   StepPoint sample_;                                ///< the state between steps that was evaluated last
   std::vector<Penetration> rings_start_, rings_end_;  ///< at both ends of a controlled step
