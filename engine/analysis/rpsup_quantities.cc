@@ -32,6 +32,7 @@ enum class Load : std::size_t {
   kCrankCurrent,
   kCrankElectricWork,
   kRodCurrent,
+  kRodElectricWork,
 };
 
 /// The readings of an actuated coordinate's actuator; of a driven one only the drive's force.
@@ -260,6 +261,12 @@ std::span<const QuantityInfo> metric_table() {
       {.key = "peak_crank_electric_work_j",
        .help = "Largest magnitude of the electric work of the crank's motor since t = 0; null without motor"},
       {.key = "peak_crank_electric_work_time_s", .help = "Time of peak_crank_electric_work_j"},
+      {.key = "peak_rod_current_a",
+       .help = "Largest magnitude of the current of the rod's motor in the whole run; null without motor"},
+      {.key = "peak_rod_current_time_s", .help = "Time of peak_rod_current_a"},
+      {.key = "peak_rod_electric_work_j",
+       .help = "Largest magnitude of the electric work of the rod's motor since t = 0; null without motor"},
+      {.key = "peak_rod_electric_work_time_s", .help = "Time of peak_rod_electric_work_j"},
       {.key = "peak_joint_reaction_n",
        .help = "Largest magnitude of the force between coupler and cross link in the whole run"},
       {.key = "peak_joint_reaction_time_s", .help = "Time of peak_joint_reaction_n"},
@@ -315,7 +322,8 @@ Measured rpsup_measured(const RpsupParameters& parameters, const Rpsup& rpsup) {
                     .velocities = {},
                     .loads = {radial_force, penetration, friction_force, crank.force, rod.force, reaction,
                               crank.current ? crank.current : zero,
-                              crank.current ? crank.electric_work : zero, rod.current ? rod.current : zero},
+                              crank.current ? crank.electric_work : zero,
+                              rod.current ? rod.current : zero, rod.current ? rod.electric_work : zero},
                     .contacts = {{.joint = 0}},
                     .steady_from = parameters.run_up};
   if (parameters.crank_actuator) measured.velocities = {rpsup.layout.crank};
@@ -327,11 +335,14 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
                                        const std::optional<Peak>& ideal) {
   const bool has_steady = metrics.steady_time() > 0.0;
   const bool has_clearance = parameters.c_r > 0.0;
-  const bool has_motor =
-      parameters.crank_actuator && std::holds_alternative<DcMotor>(*parameters.crank_actuator);
+  const auto is_motor = [](const std::optional<Actuator>& actuator) {
+    return actuator && std::holds_alternative<DcMotor>(*actuator);
+  };
   const double ideal_peak = ideal ? ideal->magnitude : kNoValue;
   const RunMetrics::Acceleration& slider = metrics.acceleration(0);
   const auto peak = [&metrics](Load load) { return metrics.load_peak(static_cast<std::size_t>(load)); };
+  const bool crank_has_motor = is_motor(parameters.crank_actuator);
+  const bool rod_has_motor = is_motor(parameters.rod_actuator);
   return {
       has_steady ? slider.steady.magnitude : kNoValue,
       has_steady ? time_of(slider.steady) : kNoValue,
@@ -353,10 +364,14 @@ std::vector<double> calc_rpsup_metrics(const RpsupParameters& parameters, const 
       time_of(peak(Load::kRodForce)),
       parameters.crank_actuator ? metrics.calc_mean_velocity(0) : kNoValue,
       parameters.crank_actuator ? metrics.calc_speed_fluctuation(0) : kNoValue,
-      has_motor ? peak(Load::kCrankCurrent).magnitude : kNoValue,
-      has_motor ? time_of(peak(Load::kCrankCurrent)) : kNoValue,
-      has_motor ? peak(Load::kCrankElectricWork).magnitude : kNoValue,
-      has_motor ? time_of(peak(Load::kCrankElectricWork)) : kNoValue,
+      crank_has_motor ? peak(Load::kCrankCurrent).magnitude : kNoValue,
+      crank_has_motor ? time_of(peak(Load::kCrankCurrent)) : kNoValue,
+      crank_has_motor ? peak(Load::kCrankElectricWork).magnitude : kNoValue,
+      crank_has_motor ? time_of(peak(Load::kCrankElectricWork)) : kNoValue,
+      rod_has_motor ? peak(Load::kRodCurrent).magnitude : kNoValue,
+      rod_has_motor ? time_of(peak(Load::kRodCurrent)) : kNoValue,
+      rod_has_motor ? peak(Load::kRodElectricWork).magnitude : kNoValue,
+      rod_has_motor ? time_of(peak(Load::kRodElectricWork)) : kNoValue,
       peak(Load::kReaction).magnitude,
       time_of(peak(Load::kReaction)),
       metrics.last_energy().friction_loss,
