@@ -14,6 +14,7 @@
 
 #include "jobs/runs/run_record.h"
 #include "server/report/report.h"
+#include "tests/jobs/requests/example_linkage.h"
 #include "tests/server/service_fixture.h"
 
 namespace {
@@ -459,6 +460,32 @@ TEST(Analyses, TakeSectionsAndExponentsOfDescribedLinkages) {
   const auto refused = bench.call("GET", job + "/poincare", "", {{"angle", "wheel_rad_s"}});
   EXPECT_EQ(refused.status, 422);
   EXPECT_EQ(json::parse(refused.body).at("errors").at(0).at("pointer"), "/angle");
+}
+
+TEST(Analyses, AgreeForRpsupAndItsDescription) {
+  const json described = jobs_tests::example("rpsup").at("linkage");
+  Bench bench(jobs::engine_runner());
+  std::vector<json> exponents, sections;
+  for (const bool is_described : {false, true}) {
+    json parameters{{"duration_s", 1.5}, {"run_up_s", 0.3}};
+    if (is_described) parameters["linkage"] = described;
+    const json request{
+        {"parameters", parameters}, {"sweep", {{"restitution", {0.95}}}}, {"replicates", {{"count", 2}}}};
+    const std::string sweep = "/v1/sweeps/" + bench.run(request.dump());
+    exponents.push_back(rows_of(bench, sweep + "/lyapunov").at(0));
+    const json rows = json::parse(bench.call("GET", sweep + "/results").body);
+    sections.push_back(
+        rows_of(bench, "/v1/jobs/" + rows.at(0).at("job_id").get<std::string>() + "/poincare").at("columns"));
+  }
+  EXPECT_EQ(exponents[0].at("pairs"), 1);
+  EXPECT_NEAR(exponents[0].at("exponent_1_s").get<double>(),
+              exponents[1].at("exponent_1_s").get<double>(), 1e-4);
+  ASSERT_EQ(sections[0].at("t_s").size(), 2U);
+  ASSERT_EQ(sections[1].at("t_s").size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k)
+    for (const char* const channel : {"journal_x_mm", "journal_y_mm"})
+      EXPECT_NEAR(sections[0].at(channel).at(k).get<double>(),
+                  sections[1].at(std::string("bearing_") + channel).at(k).get<double>(), 1e-6);
 }
 
 TEST(Analyses, AreOfWhatIsThere) {
