@@ -29,7 +29,7 @@ struct SignalSource {
 /// noise, if given, else the standard deviation of the fitted samples, over the weight.
 [[nodiscard]] FitSignal make_fit_signal(const SignalSource& source);
 
-/// Says why residuals of a signal have no scale; empty if they have.
+/// Reason why residuals of a signal have no scale; empty if they have one.
 [[nodiscard]] std::string describe_scale_fault(const FitSignal& signal);
 
 /// Samples per second of the jobs: a multiple of the measured ones if these are evenly spaced, so that jobs

@@ -80,7 +80,7 @@ ClearanceParameters make_loose_joint() {
   joint.c_a = std::numeric_limits<double>::infinity();
   joint.L_b = 0.1;
   joint.K = 1e10;
-  joint.chi = 20.0;
+  joint.chi = 20.0;  // hardly any rebound: there is none in the published model
   joint.friction = FrictionParameters{.mu_s = 0.1, .mu_k = 0.1, .sigma_0 = 1e6, .sigma_1 = 100.0};
   return joint;
 }

@@ -23,7 +23,8 @@ export async function show(main, { id, query, signal }) {
   const isRpsup = metrics.includes(usual);
   const numbers = sweep.axes.filter((axis) => typeof rows[0][axis] === "number");
   const analysed = { sweep, numbers, isRpsup, jobId: rows[0].job_id,
-    hasClearance: metrics.some((metric) => metric.endsWith("contact_time_ratio")), metric: metrics.find((metric) => metric === query.get("metric"))
+    hasClearance: metrics.some((metric) => metric.endsWith("contact_time_ratio")),
+    metric: metrics.find((metric) => metric === query.get("metric"))
     ?? (isRpsup ? usual : usualMetric(metrics, rows, sweep)) };
   const name = sweep.name || sweep.id;
   document.title = `RPSUP: analysis of ${name}`;

@@ -72,11 +72,13 @@ TEST(Actuator, OfTheRodMayBeAMotor) {
   motor.erase("gear_ratio");
   motor["gear_ratio_rad_m"] = 2000;
   motor["voltage_v"] = {{"law", "harmonic"}, {"amplitude_v", 12}, {"frequency_hz", 5}};
-  const json given = jobs::complete_parameters({{"rod_drive", motor}, {"duration_s", 0.2}, {"run_up_s", 0.1}}, "");
+  const json given =
+      jobs::complete_parameters({{"rod_drive", motor}, {"duration_s", 0.2}, {"run_up_s", 0.1}}, "");
   const jobs::Outcome outcome = jobs::run_job(given, [](double) { return false; });
   ASSERT_EQ(outcome.job.at("state"), "succeeded") << outcome.job.at("error");
   EXPECT_GT(metric(outcome.job, "peak_rod_current_a"), 0.0);
-  EXPECT_LT(metric(outcome.job, "peak_rod_current_a"), 2.0 * 12.0 / 0.5) << "voltage and back-EMF by resistance";
+  EXPECT_LT(metric(outcome.job, "peak_rod_current_a"), 2.0 * 12.0 / 0.5)
+      << "voltage and back-EMF by resistance";
   EXPECT_GT(metric(outcome.job, "peak_rod_electric_work_j"), 0.0);
   EXPECT_TRUE(outcome.job.at("metrics").at("peak_crank_current_a").is_null());
   EXPECT_TRUE(outcome.job.at("metrics").at("peak_crank_electric_work_j").is_null());
