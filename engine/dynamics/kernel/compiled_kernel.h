@@ -78,7 +78,7 @@ class CompiledKernel final : public DynamicsKernel {
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved,
                             double* dydt) override {
     if constexpr (Topology::is_static) {
-      ForwardDynamics<Topology> at(model_, joints_, applied_);
+      ForwardDynamics<typename Topology::Bodies> at(model_, joints_, applied_);
       at.bristle_rates = dydt + layout_.bristle();
       return evaluate(y, drives, at, dydt);
     } else {
@@ -146,7 +146,7 @@ class CompiledKernel final : public DynamicsKernel {
   template <typename Visited>
   RPSUP_INLINE void set_state(const double* y, const DrivenMotion* drives,
                               ForwardDynamics<Visited>& at) const {
-    Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+    Visited::for_each_joint(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
         const int i = joint.first + k;
         at.q[i] = joint.driven ? drives[joint.drive].q : y[layout_.q(joint.first_free + k)];
@@ -159,7 +159,7 @@ class CompiledKernel final : public DynamicsKernel {
 
   template <typename Visited>
   RPSUP_INLINE void write_rates(const ForwardDynamics<Visited>& at, double* dydt) const {
-    Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+    Visited::for_each_joint(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.driven) return;
       for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
         dydt[layout_.q(joint.first_free + k)] = at.qd[joint.first + k];
@@ -170,18 +170,18 @@ class CompiledKernel final : public DynamicsKernel {
     if constexpr (!Topology::is_static) {
       for (std::size_t k = 0; k < at.drive_force.size(); ++k)
         works[k] = at.drive_force[k] * at.qd[model_.drives[k]];
-      for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
-        works[layout_.drives + k] =
-            calc_applied_power(model_.applied_forces[k], applied_.forces[k], at.qd);
-      for (std::size_t k = 0; k < at.body_loads.size(); ++k)
-        works[layout_.drives + model_.applied_forces.size() + k] = at.body_loads[k].power;
     } else {
-      Visited::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      Visited::for_each_joint(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
         if (!joint.driven) return;
-        works[joint.drive] = at.drive_force[joint.drive] *
-                             at.qd[joint.first];
+        works[joint.drive] = at.drive_force[joint.drive] * at.qd[joint.first];
       });
     }
+    if constexpr (Topology::has_applied_forces)
+      for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
+        works[layout_.drives + k] = calc_applied_power(model_.applied_forces[k], applied_.forces[k], at.qd);
+    if constexpr (Topology::has_point_springs)
+      for (std::size_t k = 0; k < at.body_loads.size(); ++k)
+        works[layout_.drives + model_.applied_forces.size() + k] = at.body_loads[k].power;
     works[layout_.impact_in_works()] = at.losses.impact;
     works[layout_.friction_in_works()] = at.losses.friction;
     works[layout_.structural_in_works()] = at.losses.structural;

@@ -78,13 +78,30 @@ void register_steps(Coupler coupler, const char* coupler_name) {
   }
 }
 
-void register_job(Coupler coupler, const char* coupler_name, double c_r, const char* joint_name) {
-  constexpr double kDuration = 0.5;
-  const RpsupParameters parameters = hurried(linkage(coupler, c_r, 10.0), kDuration);
+constexpr double kJobDuration = 0.5;  // [s]
+
+void register_job(const std::string& name, const RpsupParameters& parameters) {
   benchmark::RegisterBenchmark(
-      (std::string("job/") + coupler_name + "/" + joint_name).c_str(),
-      [=](benchmark::State& run) { run_job(run, parameters, {.duration = kDuration}); })
+      ("job/" + name).c_str(),
+      [=](benchmark::State& run) { run_job(run, parameters, {.duration = kJobDuration}); })
       ->Unit(benchmark::kMillisecond);
+}
+
+/// The rigid linkage with clearance; a controller of the velocity moves the crank, by a torque or by a motor.
+void register_actuated_jobs() {
+  RpsupParameters parameters = hurried(linkage(Coupler::kRigid, 0.25e-3, 10.0), kJobDuration);
+  const engine::DriveLaw run_up = engine::RunUp{.omega = 10.0, .run_up = parameters.run_up};
+  parameters.crank_actuator =
+      engine::Controller{.target = run_up, .proportional = 200.0, .integral = 2000.0};
+  register_job("rigid/controller", parameters);
+  parameters.crank_actuator =
+      engine::DcMotor{.voltage = engine::Controller{.target = run_up, .proportional = 40.0, .integral = 400.0},
+                      .torque_constant = 0.5,
+                      .resistance = 0.5,
+                      .inductance = 1e-3,
+                      .gear_ratio = 20.0,
+                      .rotor_inertia = 1e-3};
+  register_job("rigid/motor", parameters);
 }
 
 }  // namespace
@@ -93,9 +110,10 @@ void register_runs() {
   for (const auto& [coupler, name] :
        {std::pair{Coupler::kRigid, "rigid"}, std::pair{Coupler::kFlexible, "flexible"}}) {
     register_steps(coupler, name);
-    register_job(coupler, name, 0.25e-3, "clearance");
-    register_job(coupler, name, 0.0, "ideal");
+    for (const auto& [c_r, joint] : {std::pair{0.25e-3, "clearance"}, {0.0, "ideal"}})
+      register_job(name + std::string("/") + joint, hurried(linkage(coupler, c_r, 10.0), kJobDuration));
   }
+  register_actuated_jobs();
 }
 
 }  // namespace bench

@@ -129,6 +129,12 @@ std::vector<Case> all_cases() {
   turned_guide.guide_angle = 0.3;
   turned_guide.crank_start = 0.4;
   turned_guide.rod_law = StrokeLaw::kParabolic;
+  RpsupParameters forced = guide, controlled = guide, motorised = guide;  // code is specialised for each
+  const Controller controller{.target = Harmonic{0.3, 2.0, 5.0, 0.4}, .proportional = 30.0, .integral = 50.0};
+  forced.crank_actuator = ForceLaw{Signal(Harmonic{1.0, 0.5, 6.0, 0.2})};
+  controlled.crank_actuator = controller;
+  motorised.crank_actuator = DcMotor{.voltage = controller, .torque_constant = 0.5, .resistance = 0.8, .inductance = 0.02, .gear_ratio = 3.0,
+                                     .gear_efficiency = 0.8, .rotor_inertia = 1e-3};
   RpsupParameters dashpots = elements;
   dashpots.normal_law = NormalForceLaw::kKelvinVoigt;
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
@@ -166,6 +172,8 @@ std::vector<Case> all_cases() {
           of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
           of_tilted_coupler("guide", guide, kTilted, kFine), of_tilted_coupler("flexible_guide", flexible_guide, kTilted, kFine),
           of_tilted_coupler("ideal_guide", ideal_guide, 1e-6, kCoarse), of_tilted_coupler("turned_guide", turned_guide, kTilted, kFine),
+          of_tilted_coupler("forced", forced, kTilted, kFine), of_tilted_coupler("controlled", controlled, kTilted, kFine),
+          of_tilted_coupler("motorised", motorised, kTilted, kFine),
           of_rpsup("elements_with_dashpots", dashpots, kPressed, kFine),
           of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
           {"loose_loops", build_linkage(loose).mechanism, 1, 3e-4, kFine}, {"loose_rocker", build_linkage(loose).mechanism, 3, 2e-3, kFine},
@@ -290,6 +298,22 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
       imag[j + 1] -= 1.0;
       EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale)) << "column " << j;
     }
+  }
+}
+
+// A load of nothing on a body has the same mechanism evaluated by the code for any tree.
+TEST(SpecialisedTopology, GivesTheRatesOfAnyTree) {
+  for (const Case& c : all_cases()) {
+    if (c.name.find("guide") == std::string::npos && c.name != "forced" && c.name != "controlled" && c.name != "motorised") continue;
+    Case general = c;
+    general.mechanism.body_loads.push_back({.frame = 0, .law = Constant{0.0}});
+    const Moving special(c, {}), any(general, {});
+    const Eigen::Index size = special.system_.controlled_size();
+    ASSERT_EQ(size, any.system_.controlled_size()) << c.name;
+    EXPECT_EQ(special.y.head(size), any.y.head(size)) << c.name;
+    const double scale = any.f.head(size).cwiseAbs().maxCoeff();
+    EXPECT_LT((special.f.head(size) - any.f.head(size)).cwiseAbs().maxCoeff(), 1e-10 * scale) << c.name;
+    EXPECT_GT(scale, 1.0) << c.name;
   }
 }
 
@@ -506,7 +530,7 @@ std::vector<Case> open_chains() {
   std::erase_if(cases, [](const Case& c) {
     const bool constrained = c.mechanism.drive_rows == DriveRows::kMultipliers || !c.mechanism.couplings.empty() ||
                              std::ranges::any_of(c.mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
-    return constrained || !c.mechanism.springs.empty();
+    return constrained || !c.mechanism.springs.empty() || !c.mechanism.actuations.empty();
   });
   return cases;
 }

@@ -50,7 +50,7 @@ RPSUP_INLINE void subtract_contact_load(const Joint& joint, const CutJointMotion
 template <typename Topology, typename Coordinates>
 RPSUP_INLINE void calc_joint_spring_forces(const TreeModel& model, const Coordinates& q,
                                            const Coordinates& qd, Coordinates& tau) {
-  Topology::base_to_tip(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  Topology::for_each_joint(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
     for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
       const int i = joint.first + k;
       tau[i] = joint.sprung ? -(joint.data().stiffness[k] * q[i] + joint.data().damping[k] * qd[i]) : 0.0;
@@ -76,7 +76,7 @@ template <typename Coordinates>
 /// Adds the powers of the joints' dampers. @param qd  one a coordinate
 template <typename Topology, typename Coordinates>
 RPSUP_INLINE void add_damper_power(const TreeModel& model, const Coordinates& qd, double& power) {
-  Topology::base_to_tip(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  Topology::for_each_joint(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
     if (!joint.sprung) return;
     for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA {
       const double rate = qd[joint.first + k];

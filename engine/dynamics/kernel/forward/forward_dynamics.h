@@ -62,7 +62,7 @@ class ForwardDynamics {
     if (!definite) return EvaluationStatus::kNonFinite;
     calc_bias_forces();
     calc_joint_spring_forces<Topology>(model_, q, qd, tau_);
-    if constexpr (!Topology::is_static) add_applied_forces(model_, applied_.forces, tau_);
+    if constexpr (Topology::has_applied_forces) add_applied_forces(model_, applied_.forces, tau_);
     if (!calc_accelerations(drives)) return EvaluationStatus::kLocked;
     calc_drive_forces();
     calc_losses();
@@ -172,6 +172,9 @@ class ForwardDynamics {
     if constexpr (Topology::has_constraints)
       if (model_.rows > 0 && !solve_multipliers(drives)) return false;
     bodies.solve(axes.data(), tau_.data(), work_, qdd.data(), slender());
+    Topology::for_each_auxiliary(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+      qdd[joint.first] = tau_[joint.first] / joint.data().I[0];  // the same about any axis
+    });
     return true;
   }
   [[nodiscard]] RPSUP_INLINE const SlenderBodyMotion* slender() const {
@@ -269,7 +272,7 @@ class ForwardDynamics {
   [[nodiscard]] RPSUP_INLINE bool is_finite() const {
     double sums[3] = {losses.impact, losses.friction,
                       losses.structural};  // a sum with an infinity or a NaN is none or the other
-    Topology::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+    Topology::for_each_joint(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.driven) return;
       for_each_coordinate(joint, [&](int k) RPSUP_INLINE_LAMBDA { sums[k] += qdd[joint.first + k]; });
     });

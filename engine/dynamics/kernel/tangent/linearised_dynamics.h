@@ -56,7 +56,7 @@ class LinearisedDynamics {
     calc_load_tangents(time);
     rotate_joint_forces();
     add_joint_spring_tangents<Topology>(model_, seeds_, tau_.data());
-    if constexpr (!Topology::is_static)
+    if constexpr (Topology::has_applied_forces)
       add_applied_force_tangents(model_, applied_.forces, seeds_, time, applied_force.data(), tau_.data());
     if constexpr (Topology::has_constraints)
       for (std::size_t i = 0; i < unconstrained_forces_.size(); ++i)

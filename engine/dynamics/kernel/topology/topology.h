@@ -55,6 +55,7 @@ struct StaticCutJoint {
 struct DynamicTopology {
   static constexpr bool has_point_springs = true;  ///< it may have some
   static constexpr bool has_constraints = true;    ///< it may have some
+  static constexpr bool has_applied_forces = true; ///< it may have some
   static constexpr bool is_static = false;         ///< traits and sizes are compile-time constants
   template <typename T>
   using PerJoint = Buffer<T>;
@@ -75,6 +76,7 @@ struct DynamicTopology {
   using PerSlenderBody = FixedBuffer<T, 0>;  ///< slender bodies move like all others: see SlenderBodyMotion
 
   using Rolled = DynamicTopology;
+  using Bodies = DynamicTopology;
 
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
 
@@ -87,6 +89,12 @@ struct DynamicTopology {
   RPSUP_INLINE static void tip_to_base(const TreeModel& model, const Visit& visit) {
     for (std::size_t i = model.joints.size(); i-- > 0;) visit(i, model.joints[i]);
   }
+  template <typename Visit>
+  RPSUP_INLINE static void for_each_joint(const TreeModel& model, const Visit& visit) {
+    base_to_tip(model, visit);
+  }
+  template <typename Visit>
+  RPSUP_INLINE static void for_each_auxiliary(const TreeModel&, const Visit&) {}
   template <typename Visit>
   RPSUP_INLINE static void for_each_cut_joint(const TreeModel& model, const Visit& visit) {
     const std::size_t count = model.cut_joints.size();
@@ -105,26 +113,47 @@ struct DynamicTopology {
   }
 };
 
-/// A topology of compile-time constants, with one cut joint: its journal is on the last joint's body, its
-/// bearing on the third last one's. Passes over the joints are unrolled, and their branches vanish.
+/// Number of joints at the end that turn about a point of the ground and carry nothing: what actuators add.
+template <std::size_t n>
+[[nodiscard]] consteval std::size_t count_auxiliaries(const std::array<JointTraits, n>& joints) {
+  std::size_t count = 0;
+  while (count < n && joints[n - 1 - count].parent < 0 && joints[n - 1 - count].rotates()) ++count;
+  return count;
+}
+
+/// Whether a joint has the traits of a static one. It may lack those whose numbers may be zero.
+[[nodiscard]] inline bool fits_traits(JointTraits given, const JointTraits& wanted) {
+  given.has_armature |= wanted.has_armature;
+  given.sprung |= wanted.sprung;
+  return given == wanted;
+}
+
+/// A topology of compile-time constants, with one cut joint: its journal is on the last body's joint, its
+/// bearing on the third last one's, auxiliary joints not counted. Passes over the joints are unrolled, and
+/// their branches vanish.
 /// @tparam joints     std::array of JointTraits
 /// @tparam clearance  whether the cut joint has clearance
 /// @tparam rolled     whether a series of slender bodies is visited in a loop: less code, but nothing of the
 /// series stays in registers
-template <const auto& joints, bool clearance, bool rolled = false>
+/// @tparam bodies_only  whether passes over the tree leave auxiliary joints out: these have no part in the
+/// motion of the bodies but by the applied forces
+template <const auto& joints, bool clearance, bool rolled = false, bool bodies_only = false>
 struct StaticTopology {
   static constexpr std::size_t n = joints.size();
   static constexpr bool has_series = find_series(joints).end > 0;
   using Rolled = StaticTopology<joints, clearance, has_series>;
+  using Bodies = StaticTopology<joints, clearance, rolled, (count_auxiliaries(joints) > 0)>;
   static_assert(std::ranges::none_of(joints,
                                      [](const JointTraits& s) {
                                        return s.is_slender && (s.rotated || s.driven);
                                      }),
                 "calc_slender_frame() leaves out rotated placements and drives");
   static constexpr std::size_t n_q = static_cast<std::size_t>(joints[n - 1].first + joints[n - 1].count());
-  static constexpr std::size_t n_drives = 2;
+  static constexpr std::size_t n_drives =
+      static_cast<std::size_t>(std::ranges::count_if(joints, &JointTraits::driven));
   static constexpr bool has_point_springs = false;
   static constexpr bool has_constraints = !clearance;
+  static constexpr bool has_applied_forces = n_drives < 2;  ///< what is not driven has an actuator
   static constexpr bool is_static = true;
   template <typename T>
   using PerJoint = FixedBuffer<T, n>;
@@ -140,7 +169,10 @@ struct StaticTopology {
   using PerPointSpring = FixedBuffer<T, 0>;
   template <typename T>
   using PerBodyLoad = FixedBuffer<T, 0>;
-  using CutJoint = StaticCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
+  static constexpr std::size_t n_bodies = n - count_auxiliaries(joints);
+  static constexpr std::size_t n_visited = bodies_only ? n_bodies : n;
+  using CutJoint =
+      StaticCutJoint<static_cast<int>(n_bodies) - 3, static_cast<int>(n_bodies) - 1, clearance>;
   static constexpr int row_count = clearance ? 0 : CutJoint::rows.count();
   template <typename T>
   using PerRow = FixedBuffer<T, row_count>;
@@ -149,13 +181,13 @@ struct StaticTopology {
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
     if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() ||
-        !model.couplings.empty() || !model.applied_forces.empty() ||
+        !model.couplings.empty() || (!has_applied_forces && !model.applied_forces.empty()) ||
         !model.body_loads.empty())
       return false;
     if (model.minimum_norm_multipliers) return false;  // FullRankDelassus cannot factor dependent rows
     if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;
     for (std::size_t i = 0; i < n; ++i)
-      if (!(static_cast<const JointTraits&>(model.joints[i]) == joints[i])) return false;
+      if (!fits_traits(model.joints[i], joints[i])) return false;
     return true;
   }
 
@@ -165,15 +197,26 @@ struct StaticTopology {
     if constexpr (rolled)
       for (std::size_t i = series.first; i < series.end; ++i)
         visit(i, SlenderJoint{model.joints[i], i - series.first});
-    base_to_tip<series.end>(model, visit, std::make_index_sequence<n - series.end>());
+    base_to_tip<series.end>(model, visit, std::make_index_sequence<n_visited - series.end>());
   }
   template <typename Visit>
   RPSUP_INLINE static void tip_to_base(const TreeModel& model, const Visit& visit) {
-    tip_to_base<n>(model, visit, std::make_index_sequence<n - series.end>());
+    tip_to_base<n_visited>(model, visit, std::make_index_sequence<n_visited - series.end>());
     if constexpr (rolled)
       for (std::size_t i = series.end; i-- > series.first;)
         visit(i, SlenderJoint{model.joints[i], i - series.first});
     tip_to_base<series.first>(model, visit, std::make_index_sequence<series.first>());
+  }
+  /// All joints, in any order.
+  template <typename Visit>
+  RPSUP_INLINE static void for_each_joint(const TreeModel& model, const Visit& visit) {
+    base_to_tip(model, visit);
+    for_each_auxiliary(model, visit);
+  }
+  /// The joints that the passes leave out.
+  template <typename Visit>
+  RPSUP_INLINE static void for_each_auxiliary(const TreeModel& model, const Visit& visit) {
+    base_to_tip<n_visited>(model, visit, std::make_index_sequence<n - n_visited>());
   }
   template <typename Visit>
   RPSUP_INLINE static void for_each_cut_joint(const TreeModel& model, const Visit& visit) {
@@ -233,48 +276,6 @@ struct StaticTopology {
      ...);
   }
 };
-
-/// Traits of the paper's linkage with prescribed drives: crank, rod, coupler (in n_rfe parts), slider, cross
-/// link.
-/// @tparam yoke_axis  axis of the cross link's rotation: 0 along the guide, 1 across it
-template <std::size_t n_rfe, int yoke_axis>
-consteval std::array<JointTraits, n_rfe + 4> make_rpsup_traits() {
-  using Kind = JointTraits::Kind;
-  using Inertia = JointTraits::Inertia;
-  std::array<JointTraits, n_rfe + 4> joints{};
-  joints[0] = {.kind = Kind::kRotation, .axis = 2, .driven = true, .drive = 0, .shifted_along_x = true,
-               .inertia = Inertia::kAxisymmetric, .com_at_origin = false};
-  joints[1] = {.kind = Kind::kTranslation,
-               .axis = 0,
-               .parent = 0,
-               .driven = true,
-               .drive = 1,
-               .shifted_along_x = true,
-               .inertia = Inertia::kAxisymmetric,
-               .com_at_origin = false};
-  for (std::size_t i = 0; i < n_rfe; ++i)
-    joints[2 + i] = {.kind = Kind::kSpherical,
-                     .axis = 2,
-                     .parent = static_cast<int>(i) + 1,
-                     .shifted = true,
-                     .shifted_along_x = true,
-                     .sprung = i > 0,
-                     .inertia = Inertia::kAxisymmetric,
-                     .com_at_origin = false};
-  joints[2 + n_rfe] = {.kind = Kind::kTranslation, .axis = 0, .shifted = true, .inertia = Inertia::kDiagonal};
-  joints[3 + n_rfe] = {.kind = Kind::kRotation,
-                       .axis = yoke_axis,
-                       .parent = static_cast<int>(n_rfe) + 2,
-                       .shifted_along_x = true,
-                       .inertia = Inertia::kDiagonal};
-  complete_traits(joints);
-  return joints;
-}
-
-inline constexpr auto kRigidRpsup = make_rpsup_traits<1, 0>();
-inline constexpr auto kFlexibleRpsup = make_rpsup_traits<4, 0>();
-inline constexpr auto kRigidRpsupAcross = make_rpsup_traits<1, 1>();
-inline constexpr auto kFlexibleRpsupAcross = make_rpsup_traits<4, 1>();
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine
