@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "jobs/measurements/check_measurement.h"
+#include "jobs/measurements/sensor.h"
+#include "jobs/parameters/parameter_value.h"
 
 namespace jobs {
 namespace {
@@ -27,6 +29,8 @@ class ColumnChooser {
     if (query_.channels.empty()) choose_all();
     else choose_asked();
     check_count();
+    read_sensors();
+    choice_.parameters = read_run_parameters(query_.parameters, "/parameters", faults_);
     throw_if_any(std::move(faults_));
     return std::move(choice_);
   }
@@ -107,6 +111,22 @@ class ColumnChooser {
     if (choice_.channels.size() > kMostMeasuredChannels)
       faults_.push_back(
           {"", "a measurement may have " + std::to_string(kMostMeasuredChannels) + " channels"});
+  }
+
+  void read_sensors() {
+    if (!query_.sensors.is_object()) return faults_.push_back({"/sensors", "must be an object"});
+    for (const auto& [name, sensor] : query_.sensors.items()) {
+      const std::string pointer = "/sensors" + pointer_token(name);
+      const auto channel = std::ranges::find(choice_.channels, name, &MeasuredChannel::name);
+      if (channel == choice_.channels.end()) {
+        faults_.push_back({pointer, "is no channel of this measurement"});
+      } else if (!sensor.is_object()) {
+        faults_.push_back({pointer, "must be an object"});
+      } else {
+        check_measured_keys(sensor, pointer, kSensorKeys, faults_);
+        read_sensor(sensor, pointer, *channel, faults_);
+      }
+    }
   }
 
   std::span<const std::string> names_;

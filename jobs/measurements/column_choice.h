@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "jobs/base/errors.h"
 #include "jobs/measurements/measurement.h"
 
@@ -17,6 +19,8 @@ struct ColumnQuery {
   std::string name{};                   ///< of the measurement
   std::string time{};                   ///< column of the time; empty: time_s, t_s, or the first one
   std::vector<std::string> channels{};  ///< COLUMN:CHANNEL, or COLUMN for one that has the channel's name
+  nlohmann::ordered_json sensors = nlohmann::ordered_json::object();     ///< kSensorKeys by channel
+  nlohmann::ordered_json parameters = nlohmann::ordered_json::object();  ///< of MeasuredRun
 };
 
 /// Columns of a file that are read.
@@ -24,6 +28,7 @@ struct ColumnChoice {
   std::size_t time = 0;              ///< index of the column
   std::vector<std::size_t> columns;  ///< index of the column of each channel
   std::vector<MeasuredChannel> channels;
+  nlohmann::json parameters = nlohmann::json::object();  ///< of MeasuredRun
 };
 
 /// Chooses the columns of the time and of the channels.

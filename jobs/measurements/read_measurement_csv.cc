@@ -105,6 +105,7 @@ class CsvReader {
     if (std::ranges::all_of(names_, [](const std::string& name) { return find_number(name).has_value(); }))
       refuse_body("line 1 holds numbers; the first line must name the columns");
     choice_ = choose_columns(names_, query_, [this](std::size_t column) { return place(1, column); });
+    run_.parameters = choice_.parameters;
     run_.columns.resize(choice_.columns.size());
   }
 

@@ -2,25 +2,19 @@
 #include "jobs/measurements/read_measurement_json.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "jobs/measurements/check_measurement.h"
+#include "jobs/measurements/sensor.h"
 #include "jobs/parameters/parameter_value.h"
-#include "jobs/parameters/range.h"
-#include "jobs/requests/parameters.h"
 
 namespace jobs {
 namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr Range kAnyNumber;
-constexpr Range kAboveZero = above(0.0, std::numeric_limits<double>::max());
 
 /// Reads one request; a member function a part of it.
 class MeasurementParser {
@@ -45,9 +39,7 @@ class MeasurementParser {
 
   void check_keys(const ordered_json& object, const std::string& pointer,
                   std::span<const std::string_view> known) {
-    for (const auto& [key, value] : object.items())
-      if (std::ranges::find(known, key) == known.end())
-        fault(pointer + pointer_token(key), describe_unknown_key(key, known));
+    check_measured_keys(object, pointer, known, faults_);
   }
 
   void read_name() {
@@ -86,13 +78,7 @@ class MeasurementParser {
     if (std::ranges::find(others, channel.name, &MeasuredChannel::name) != others.end())
       fault(pointer + "/name", quoted_text(channel.name) + " stands twice");
     channel.column = given.contains("column") ? text_of(given, "column", pointer) : channel.name;
-    channel.sign = number_of(given, "sign", pointer, 1.0, kAnyNumber);
-    if (std::abs(channel.sign) != 1.0) fault(pointer + "/sign", "must be 1 or -1");
-    channel.gain = number_of(given, "gain", pointer, 1.0, kAboveZero);
-    channel.offset = number_of(given, "offset", pointer, 0.0, kAnyNumber);
-    channel.delay_s = number_of(given, "delay_s", pointer, 0.0, kAnyNumber);
-    if (given.contains("low_pass_hz") && !given.at("low_pass_hz").is_null())
-      channel.low_pass_hz = number_of(given, "low_pass_hz", pointer, 1.0, kAboveZero);
+    read_sensor(given, pointer, channel, faults_);
     measurement_.channels.push_back(std::move(channel));
   }
 
@@ -108,16 +94,6 @@ class MeasurementParser {
     return text;
   }
 
-  double number_of(const ordered_json& object, const char* key, const std::string& pointer, double otherwise,
-                   const Range& range) {
-    if (!object.contains(key)) return otherwise;
-    const json value = object.at(key);
-    const std::string detail = describe_number_fault(range, "", value);
-    if (detail.empty()) return value.get<double>();
-    fault(pointer + "/" + key, detail);
-    return otherwise;
-  }
-
   void read_runs() {
     const ordered_json* const runs = find_list("runs", kMostMeasuredRuns);
     if (runs == nullptr) return;
@@ -129,7 +105,8 @@ class MeasurementParser {
     if (!given.is_object()) return fault(pointer, "must be an object");
     check_keys(given, pointer, kMeasuredRunKeys);
     MeasuredRun run;
-    if (given.contains("parameters")) read_parameters(given.at("parameters"), pointer + "/parameters", run);
+    if (given.contains("parameters"))
+      run.parameters = read_run_parameters(given.at("parameters"), pointer + "/parameters", faults_);
     run.time_s = numbers_of(given, kTimeColumn, pointer);
     add_time_faults(
         run.time_s,
@@ -141,16 +118,6 @@ class MeasurementParser {
         faults_);
     read_values(given, pointer + "/values", run);
     measurement_.runs.push_back(std::move(run));
-  }
-
-  void read_parameters(const ordered_json& given, const std::string& pointer, MeasuredRun& run) {
-    if (!given.is_object()) return fault(pointer, "must be an object");
-    run.parameters = given;
-    try {
-      static_cast<void>(complete_parameters(run.parameters, pointer));
-    } catch (const InvalidRequest& invalid) {
-      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
-    }
   }
 
   void read_values(const ordered_json& given, const std::string& pointer, MeasuredRun& run) {

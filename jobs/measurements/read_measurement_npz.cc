@@ -63,6 +63,7 @@ Measurement read_measurement_npz(std::string_view archive, const ColumnQuery& qu
     return numbers;
   };
   MeasuredRun run;
+  run.parameters = choice.parameters;
   run.time_s = read(choice.time);
   const std::string time = array_place(names[choice.time]);
   if (faults.empty())

@@ -84,6 +84,15 @@ Command add_measure(CLI::App& app) {
                    "acc=slider_acceleration_m_s2; may be repeated. Every column if left out")
       ->type_name("COLUMN=CHANNEL")
       ->allow_extra_args(false);
+  command
+      ->add_option("--sensors", options->sensors,
+                   "Corrections of sensors by channel, such as '{\"slider_acceleration_m_s2\": {\"sign\": "
+                   "-1, \"gain\": 9.81, \"offset\": 0, \"delay_s\": 0.0002, \"low_pass_hz\": 2000}}'")
+      ->type_name("JSON");
+  command
+      ->add_option("--parameters", options->parameters,
+                   "Parameters that are known of the run, such as '{\"crank_velocity_rad_s\": 10}'")
+      ->type_name("JSON");
   return make_remote_command(command, options, measure);
 }
 

@@ -30,8 +30,11 @@ std::string column_and_channel(const std::string& option) {
 /// Query of a measurement. JSON says the same itself. @throws BadInput
 QueryItems measurement_query(const MeasureOptions& options, const std::string& media_type) {
   if (media_type == kJsonType) {
-    if (options.name.empty() && options.time.empty() && options.channels.empty()) return {};
-    throw BadInput("--name, --time and --channel are for CSV and NPZ; JSON holds them itself");
+    if (options.name.empty() && options.time.empty() && options.channels.empty() && options.sensors.empty() &&
+        options.parameters.empty())
+      return {};
+    throw BadInput(
+        "--name, --time, --channel, --sensors and --parameters are for CSV and NPZ; JSON holds them itself");
   }
   QueryItems query;
   const std::string file = options.file == "-" ? "" : std::filesystem::path(options.file).filename().string();
@@ -41,6 +44,8 @@ QueryItems measurement_query(const MeasureOptions& options, const std::string& m
   for (const std::string& channel : options.channels)
     channels += (channels.empty() ? "" : ",") + column_and_channel(channel);
   if (!channels.empty()) query.emplace_back("channels", channels);
+  if (!options.sensors.empty()) query.emplace_back("sensors", options.sensors);
+  if (!options.parameters.empty()) query.emplace_back("parameters", options.parameters);
   return query;
 }
 

@@ -29,6 +29,8 @@ struct MeasureOptions {
   std::string name;                   ///< of the measurement; empty: that of the file
   std::string time;                   ///< column of the time; empty: the service chooses
   std::vector<std::string> channels;  ///< COLUMN=CHANNEL; empty: every column
+  std::string sensors{};              ///< JSON object by channel; empty: none has a correction
+  std::string parameters{};           ///< JSON object: what is known of the run
 };
 
 /// Stores a file of measured signals and prints the id of the measurement.

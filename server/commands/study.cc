@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/study.h"
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -77,10 +78,19 @@ std::optional<json> run_study(jobs::Service& service, StudyKind kind, const orde
   return service.find_study(kind, id);
 }
 
+constexpr std::array<const char*, 3> kFileKeys{"columns", "sensors", "parameters"};
+
 jobs::Measurement read_measurement_file(const std::string& path, const ordered_json& entry) {
   jobs::ColumnQuery query{.name = std::filesystem::path(path).filename().string()};
   if (entry.contains("columns")) query.channels = entry.at("columns").get<std::vector<std::string>>();
-  if (path.ends_with(".json")) return jobs::read_measurement_json(read_json(path));
+  query.sensors = entry.value("sensors", ordered_json::object());
+  query.parameters = entry.value("parameters", ordered_json::object());
+  if (path.ends_with(".json")) {
+    for (const char* const key : kFileKeys)
+      if (entry.contains(key))
+        throw BadInput(std::string(key) + " of " + path + " is for CSV and NPZ; JSON holds it itself");
+    return jobs::read_measurement_json(read_json(path));
+  }
   const std::string text = read_text(path);
   return path.ends_with(".npz") ? jobs::read_measurement_npz(text, query)
                                 : jobs::read_measurement_csv(text, query);
@@ -104,7 +114,7 @@ void store_files(const std::string& request_file, ordered_json& request,
     const std::string key = jobs::sha256_hex(entry.dump() + read_text(path.string()));
     const std::string id = store({path.string(), key}, entry);
     entry.erase("file");
-    entry.erase("columns");
+    for (const char* const key_of_file : kFileKeys) entry.erase(key_of_file);
     entry["id"] = id;
   }
 }
@@ -127,6 +137,9 @@ std::string store_there(RemoteService& service, const RemoteOptions& remote, con
       options.channels.push_back(column);
     }
   }
+  for (const auto& [key, option] :
+       {std::pair{"sensors", &options.sensors}, {"parameters", &options.parameters}})
+    if (entry.contains(key)) *option = entry.at(key).dump();
   const auto id = store_measurement(service, options, file.key);
   try {
     static_cast<void>(service.find(Kind::kMeasurement, id));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "server/messages/json_text.h"
+
 namespace server {
 
 namespace {
@@ -69,6 +71,19 @@ std::string Query::names(std::string_view key) {
   const auto value = text(key);
   if (value && value->empty()) add_fault(key, "must be a list of names separated by commas");
   return value.value_or("");
+}
+
+nlohmann::ordered_json Query::object(std::string_view key) {
+  const auto value = text(key);
+  if (!value) return nlohmann::ordered_json::object();
+  try {
+    nlohmann::ordered_json object = parse_json(*value);
+    if (object.is_object()) return object;
+    add_fault(key, "must be an object in JSON");
+  } catch (const BadJson& bad) {
+    add_fault(key, std::string("must be an object in JSON: ") + bad.what());
+  }
+  return nlohmann::ordered_json::object();
 }
 
 std::optional<double> Query::number(std::string_view key) {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "jobs/base/errors.h"
 #include "jobs/parameters/range.h"
 #include "server/messages/message.h"
@@ -37,6 +39,8 @@ class Query {
   [[nodiscard]] std::vector<std::string> list(std::string_view key) const;
   /// The same as it stands, for lists whose items may have commas; an empty text is a fault.
   [[nodiscard]] std::string names(std::string_view key);
+  /// The same as an object in JSON, an empty one if the key is missing; anything else is a fault.
+  [[nodiscard]] nlohmann::ordered_json object(std::string_view key);
   /// The same as a finite number; anything else is a fault.
   [[nodiscard]] std::optional<double> number(std::string_view key);
   /// The same as a number in a range; anything else is a fault.

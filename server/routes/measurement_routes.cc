@@ -58,7 +58,7 @@ MeasurementForm form_of(const std::string& content_type) {
 void refuse_column_keys(const Query& query) {
   query.check();
   std::vector<jobs::Fault> faults;
-  for (const char* const key : {"name", "time", "channels"}) {
+  for (const char* const key : {"name", "time", "channels", "sensors", "parameters"}) {
     if (query.text(key))
       faults.push_back({std::string("/") + key, "is for CSV and NPZ; a JSON body says it in itself"});
   }
@@ -67,14 +67,16 @@ void refuse_column_keys(const Query& query) {
 
 jobs::Measurement read_measurement(const Request& request) {
   const MeasurementForm form = form_of(request.content_type);
-  Query query(request, {"name", "time", "channels"});
+  Query query(request, {"name", "time", "channels", "sensors", "parameters"});
   if (form == MeasurementForm::kJson) {
     refuse_column_keys(query);
     return jobs::read_measurement_json(parse_json(request.body, kMostMeasurementJsonValues));
   }
   const jobs::ColumnQuery columns{.name = query.text("name").value_or(""),
                                   .time = query.text("time").value_or(""),
-                                  .channels = query.list("channels")};
+                                  .channels = query.list("channels"),
+                                  .sensors = query.object("sensors"),
+                                  .parameters = query.object("parameters")};
   return query.check_and([&] {
     return form == MeasurementForm::kCsv ? jobs::read_measurement_csv(request.body, columns)
                                          : jobs::read_measurement_npz(request.body, columns);

@@ -15,9 +15,10 @@ printf '{%s, "over": {"clearance_mm": {"from": 0.1, "to": 0.3}}, "objectives": [
 echo '{"duration_s": 0.2, "run_up_s": 0.05, "clearance_mm": 0}' >rig.json
 "$rpsup" simulate rig.json --trajectory rig.csv --channels slider_position_m >/dev/null
 cat >fit.json <<'JSON'
-{"parameters": {"clearance_mm": 0, "run_up_s": 0.05},
+{"parameters": {"run_up_s": 0.05},
  "over": {"sensor.slider_position_m.gain": {"from": 0.5, "to": 2}}, "intervals": "linearised", "budget": 60,
- "measurements": [{"file": "rig.csv", "columns": ["slider_position_m:slider_position_m"]}]}
+ "measurements": [{"file": "rig.csv", "columns": ["slider_position_m:slider_position_m"],
+                   "sensors": {"slider_position_m": {"offset": 0}}, "parameters": {"clearance_mm": 0}}]}
 JSON
 
 answers() { grep -vE '^(sweep|search|wear study|optimisation|fit|swp|sch|wst|opt|fit_)|^[0-9]+ of [0-9]+ jobs' err || true; }

@@ -96,7 +96,9 @@ class Client:
         return self._create(Fit, whole)
 
     def measure(self, source: Union[str, "os.PathLike[str]", Mapping[str, Any]], name: Text = None,
-                time: Text = None, channels: Optional[Mapping[str, str]] = None) -> Measurement:
+                time: Text = None, channels: Optional[Mapping[str, str]] = None,
+                sensors: Optional[Mapping[str, Any]] = None,
+                parameters: Optional[Mapping[str, Any]] = None) -> Measurement:
         """Stores measured signals.
 
         Args:
@@ -104,6 +106,8 @@ class Client:
             name: name for people; that of the file if left out. Of CSV and NPZ, as are the following ones.
             time: column of the time, [s].
             channels: {column: channel}; all other columns under their own names if left out.
+            sensors: {channel: {"sign": -1, "gain": 9.81, "offset": 0, "delay_s": 2e-4, "low_pass_hz": 2000}}.
+            parameters: those that are known of the run.
         """
         if isinstance(source, Mapping):
             answer = self._transport.send("POST", "/v1/measurements", body=source, again=Again.BY_KEY)
@@ -115,7 +119,9 @@ class Client:
         query: Dict[str, Any] = {}
         if ending != ".json":
             pairs = [f"{column}:{channel}" for column, channel in (channels or {}).items()]
-            query = {"name": name or os.path.basename(path), "time": time, "channels": pairs or None}
+            query = {"name": name or os.path.basename(path), "time": time, "channels": pairs or None,
+                     "sensors": json.dumps(sensors) if sensors else None,
+                     "parameters": json.dumps(parameters) if parameters else None}
         with open(path, "rb") as file:
             body = file.read()
         answer = self._transport.send("POST", "/v1/measurements", query, body, again=Again.BY_KEY,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measurements from CSV and NPZ: what is read, and the text of every refusal.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,31 @@ TEST(MeasurementCsv, ChoosesAndRenamesColumns) {
   const std::string same = "time_s,force_n,other\n0,1,x\n1,2,y\n";
   EXPECT_EQ(jobs::read_measurement_csv(same, {.channels = {"force_n"}}).runs[0].columns[0],
             (std::vector<double>{1, 2}));
+}
+
+TEST(MeasurementCsv, HasWhatIsKnownOfSensorsAndRun) {
+  using nlohmann::ordered_json;
+  const jobs::ColumnQuery query{
+      .sensors = ordered_json::parse(R"({"crank_torque_n_m": {"sign": -1, "gain": 2, "low_pass_hz": 900}})"),
+      .parameters = ordered_json::parse(R"({"crank_velocity_rad_s": 10})")};
+  const Measurement measured = jobs::read_measurement_csv(kMeasuredCsv, query);
+  EXPECT_EQ(measured.channels[0].sign, 1.0);
+  EXPECT_EQ(measured.channels[1].sign, -1.0);
+  EXPECT_EQ(measured.channels[1].gain, 2.0);
+  EXPECT_EQ(measured.channels[1].low_pass_hz, 900.0);
+  EXPECT_EQ(measured.runs[0].parameters, nlohmann::json({{"crank_velocity_rad_s", 10}}));
+  for (const auto& [sensors, parameters, pointer] :
+       std::vector<std::array<std::string, 3>>{{R"({"x_m": {}})", "{}", "/sensors/x_m"},
+                                               {R"({"crank_torque_n_m": 1})", "{}", "/sensors/crank_torque_n_m"},
+                                               {R"({"crank_torque_n_m": {"gain": 0}})", "{}",
+                                                "/sensors/crank_torque_n_m/gain"},
+                                               {R"({"crank_torque_n_m": {"scale": 2}})", "{}",
+                                                "/sensors/crank_torque_n_m/scale"},
+                                               {"{}", R"({"clearance_mm": -1})", "/parameters/clearance_mm"}}) {
+    EXPECT_THAT(csv_refusal(kMeasuredCsv, {.sensors = ordered_json::parse(sensors),
+                                           .parameters = ordered_json::parse(parameters)}),
+                HasSubstr(pointer));
+  }
 }
 
 TEST(MeasurementCsv, NamesLineAndColumnOfAFault) {

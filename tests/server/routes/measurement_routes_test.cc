@@ -69,6 +69,28 @@ TEST(MeasurementRoutes, TakeCsvAndGiveItBack) {
   }
 }
 
+TEST(MeasurementRoutes, TakeWhatIsKnownOfSensorsAndRunBesideCsv) {
+  Bench bench;
+  const std::string sensors = R"({"force_n": {"sign": -1, "delay_s": 0.002}})";
+  const auto created = post_measured(bench, kCsvOfLab, "text/csv",
+                                     {{"channels", "force_n"},
+                                      {"sensors", sensors},
+                                      {"parameters", R"({"crank_velocity_rad_s": 10})"}});
+  const json resource = json::parse(bench.call("GET", measured_path(bench, created)).body);
+  EXPECT_EQ(resource.at("channels").at(0).at("sign"), -1);
+  EXPECT_EQ(resource.at("channels").at(0).at("delay_s"), 0.002);
+  EXPECT_EQ(resource.at("runs").at(0).at("parameters"), (json{{"crank_velocity_rad_s", 10}}));
+  const auto refusals = [&](const QueryPairs& query, const char* type, const char* body) {
+    const auto refused = post_measured(bench, body, type, query);
+    EXPECT_EQ(refused.status, 422) << refused.body;
+    return json::parse(refused.body).at("errors").at(0).at("pointer").get<std::string>();
+  };
+  for (const char* const bad : {"", "x", "[1]", "{\"a\": 1, \"a\": 2}"})
+    for (const char* const key : {"sensors", "parameters"})
+      EXPECT_EQ(refusals({{"channels", "force_n"}, {key, bad}}, "text/csv", kCsvOfLab), std::string("/") + key);
+  EXPECT_EQ(refusals({{"sensors", sensors}}, "application/json", kJsonOfLab), "/sensors");
+}
+
 TEST(MeasurementRoutes, TakeJsonOfSeveralRuns) {
   Bench bench;
   const std::string path = measured_path(bench, post_measured(bench, kJsonOfLab, ""));
