@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,26 +22,63 @@ using nlohmann::json;
 constexpr double kSame = 1e-3;  // how right peaks are: a ratio nearer to 1 says that it makes no difference
 constexpr const char* kLosses[] = {"friction_work_j", "impact_loss_j", "structural_loss_j"};
 
-/// The values of a column in those rows of a group that have this coupler.
-std::vector<double> values_of(const ResultTable& results, const RowGroup& group, std::size_t coupler,
-                              const std::string& which, std::size_t column) {
+/// What makes a link rigid or flexible.
+struct LinkAxis {
+  std::string path;
+  std::size_t column;
+  json rigid, flexible;
+};
+
+bool is_elements_of_a_beam(const std::string& path) {
+  return path.starts_with("linkage.bodies.") && path.ends_with(".beam.elements");
+}
+
+/// An axis of beams: 1 and another number.
+std::optional<LinkAxis> find_beam_axis(const std::string& path, const ResultTable& results) {
+  LinkAxis axis{.path = path, .column = find_column(results, path, ""), .rigid = 1, .flexible = {}};
+  bool has_rigid = false;
+  for (const auto& row : results.rows) {
+    const json& elements = row[axis.column];
+    if (elements.is_null()) continue;  // of another linkage
+    if (elements == 1) has_rigid = true;
+    else if (axis.flexible.is_null()) axis.flexible = elements;
+    else if (axis.flexible != elements) return std::nullopt;
+  }
+  return has_rigid && !axis.flexible.is_null() ? std::optional(axis) : std::nullopt;
+}
+
+LinkAxis find_link_axis(const json& sweep, const ResultTable& results) {
+  for (const json& axis : sweep.at("axes")) {
+    const auto path = axis.get<std::string>();
+    if (path == "coupler") return {path, find_column(results, path, ""), "rigid", "flexible"};
+    if (!is_elements_of_a_beam(path)) continue;
+    if (auto found = find_beam_axis(path, results)) return std::move(*found);
+  }
+  throw WrongState(
+      "the sweep has no rigid and flexible jobs to pair: it varies neither the coupler nor, between 1 and "
+      "one other number, the elements of a beam");
+}
+
+/// The values of a column in those rows of a group whose link is this one.
+std::vector<double> values_of(const ResultTable& results, const RowGroup& group, const LinkAxis& link,
+                              const json& which, std::size_t column) {
   std::vector<double> values;
   for (const std::size_t r : group.rows) {
-    if (results.rows[r][coupler] != which) continue;
+    if (results.rows[r][link.column] != which) continue;
     if (const auto value = number_in(results.rows[r][column])) values.push_back(*value);
   }
   return values;
 }
 
-/// Both couplers at one combination.
+/// Both links at one combination.
 struct Pair {
   ReplicateStatistics rigid, flexible;
   std::optional<double> ratio, least, largest;
 };
 
-Pair pair_of(const ResultTable& results, const RowGroup& group, std::size_t coupler, std::size_t metric) {
-  Pair pair{.rigid = calc_replicate_statistics(values_of(results, group, coupler, "rigid", metric)),
-            .flexible = calc_replicate_statistics(values_of(results, group, coupler, "flexible", metric)),
+Pair pair_of(const ResultTable& results, const RowGroup& group, const LinkAxis& link, std::size_t metric) {
+  Pair pair{.rigid = calc_replicate_statistics(values_of(results, group, link, link.rigid, metric)),
+            .flexible = calc_replicate_statistics(values_of(results, group, link, link.flexible, metric)),
             .ratio = {},
             .least = {},
             .largest = {}};
@@ -70,18 +108,17 @@ json verdict_of(const Pair& pair) {
   return side < 0 ? "helps" : side > 0 ? "harms" : "either";
 }
 
-/// The energy that the coupler's dampers take, and its part of all losses, on the mean over the flexible
-/// jobs.
-std::pair<json, json> coupler_loss_of(const ResultTable& results, const RowGroup& group,
-                                      std::size_t coupler) {
+/// The structural loss, and its part of all losses, on the mean over the flexible jobs.
+std::pair<json, json> structural_loss_of(const ResultTable& results, const RowGroup& group,
+                                         const LinkAxis& link) {
   double all = 0.0;
   std::optional<double> taken;
   for (const char* const loss : kLosses) {
     const auto mean = calc_replicate_statistics(
-                          values_of(results, group, coupler, "flexible", find_column(results, loss, "")))
+                          values_of(results, group, link, link.flexible, find_column(results, loss, "")))
                           .mean;
     if (mean) all += *mean;
-    taken = mean;  // the last one is the coupler's
+    taken = mean;  // the last one is structural
   }
   if (!taken) return {nullptr, nullptr};
   return {*taken, all > 0.0 ? json(*taken / all) : json()};
@@ -123,40 +160,34 @@ void append(const ReplicateStatistics& statistics, std::vector<json>& cells) {
 
 }  // namespace
 
-ResultTable compare_couplers(const json& sweep, const ResultTable& results, const std::string& metric) {
+ResultTable compare_links(const json& sweep, const ResultTable& results, const std::string& metric) {
   const std::size_t metric_column = find_metric(results, metric);
+  const LinkAxis link = find_link_axis(sweep, results);
   ResultTable table{.columns = {}, .rows = {}, .ended = results.ended};
   std::vector<std::size_t> columns;
   std::optional<std::size_t> along;
-  bool varied = false;
   for (const json& axis : sweep.at("axes")) {
     const auto path = axis.get<std::string>();
-    if (path == "coupler") {
-      varied = true;
-      continue;
-    }
+    if (path == link.path) continue;
     if (!along && is_numeric(path)) along = columns.size();
     columns.push_back(find_column(results, path, ""));
     table.columns.push_back(path);
   }
-  if (!varied)
-    throw WrongState("the sweep does not vary the coupler: there are no rigid and flexible jobs to pair");
   const std::string along_name = along ? table.columns[*along] : "";
   table.columns.insert(table.columns.end(),
                        {"metric", "ratio", "ratio_least", "ratio_largest", "verdict", "along",
                         "reverses_from", "coupler_loss_j", "coupler_loss_part"});
-  for (const std::string coupler : {"rigid", "flexible"}) {
+  for (const std::string which : {"rigid", "flexible"}) {
     for (const char* const part : {"_count", "_mean", "_spread", "_min", "_max"})
-      table.columns.push_back(coupler + part);
+      table.columns.push_back(which + part);
   }
-  const std::size_t coupler = find_column(results, "coupler", "");
   const auto groups = group_rows(results, columns);
   std::vector<Pair> pairs;
-  for (const RowGroup& group : groups) pairs.push_back(pair_of(results, group, coupler, metric_column));
+  for (const RowGroup& group : groups) pairs.push_back(pair_of(results, group, link, metric_column));
   const auto reversals = find_reversals(groups, pairs, along);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Pair& pair = pairs[g];
-    const auto [loss, part] = coupler_loss_of(results, groups[g], coupler);
+    const auto [loss, part] = structural_loss_of(results, groups[g], link);
     std::vector<json> cells = groups[g].values;
     cells.insert(cells.end(),
                  {metric, value_or_null(pair.ratio), value_or_null(pair.least), value_or_null(pair.largest),

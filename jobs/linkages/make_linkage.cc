@@ -107,8 +107,14 @@ class LinkageMaker {
     body.name = name;
     body.mass = given.at("mass_kg").get<double>();
     if (given.contains("beam")) {
-      body.beam = read_beam(given.at("beam"), body.mass, defaults_);
+      const engine::UniformBeam beam = read_beam(given.at("beam"), body.mass, defaults_);
       body.elements = given.at("beam").value("elements", defaults_.rigid_elements);
+      if (body.elements > 1) {
+        body.beam = beam;
+      } else {
+        body.com.x() = 0.5 * beam.length;
+        body.inertia = engine::calc_beam_inertia(beam).asDiagonal();
+      }
       return body;
     }
     body.com = point_of(given, "centre_of_mass_m");

@@ -42,6 +42,21 @@ bool varies(const ResultTable& table, std::size_t column) {
 /// Time of a peak, by the end of its name.
 bool is_time(std::string_view metric) { return metric.ends_with("_time_s"); }
 
+/// Coordinates of a described linkage that move by a law: "crank", or "guide_slide" of several freedoms.
+std::vector<std::string> driven_coordinates(const nlohmann::json& sweep) {
+  const auto joints = nlohmann::json::json_pointer("/request/parameters/linkage/joints");
+  std::vector<std::string> driven;
+  if (!sweep.contains(joints)) return driven;
+  const auto law = nlohmann::json::json_pointer("/drive/law");
+  for (const auto& [name, joint] : sweep.at(joints).items()) {
+    if (joint.contains(law)) driven.push_back(name);
+    const auto freedoms = joint.value("freedoms", nlohmann::json::object());
+    for (const auto& [part, freedom] : freedoms.items())
+      if (freedom.contains(law)) driven.push_back(name + "_" + part);
+  }
+  return driven;
+}
+
 }  // namespace
 
 std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer) {
@@ -77,9 +92,11 @@ std::string choose_metric(const ResultTable& table, const std::string& wanted) {
       std::vector<Fault>{{"/metric", "\"" + wanted + "\" is no metric of this sweep, which has " + known}});
 }
 
-std::string choose_free_metric(const ResultTable& table, const std::vector<std::string>& driven) {
-  std::string usual = choose_metric(table, "");
-  if (usual == kReplicateMetric) return usual;
+std::string choose_free_metric(const nlohmann::json& sweep, const ResultTable& table,
+                               const std::string& wanted) {
+  std::string usual = choose_metric(table, wanted);
+  if (!wanted.empty() || usual == kReplicateMetric) return usual;
+  const std::vector<std::string> driven = driven_coordinates(sweep);
   std::vector<std::string> free;
   for (const std::string_view metric : metrics_of(table)) {
     const auto is_of = [&](const std::string& coordinate) {

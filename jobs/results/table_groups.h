@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "jobs/results/result_table.h"
 
 namespace jobs {
@@ -33,11 +35,10 @@ struct RowGroup {
 ///     metric
 [[nodiscard]] std::string choose_metric(const ResultTable& table, const std::string& wanted);
 
-/// The peak of the slider's acceleration; of other linkages the first acceleration whose values differ and
-/// that no drive prescribes, else the first such metric that is no peak's time, else the first one.
-/// @param driven  coordinates that move by a law
-[[nodiscard]] std::string choose_free_metric(const ResultTable& table,
-                                             const std::vector<std::string>& driven);
+/// The same; if no name is wanted, of other linkages the first acceleration whose values differ and that no
+/// drive prescribes, else the first such metric that is no peak's time, else the first one.
+[[nodiscard]] std::string choose_free_metric(const nlohmann::json& sweep, const ResultTable& table,
+                                             const std::string& wanted);
 
 /// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
 /// first ones but times of peaks, as many at most.

@@ -206,9 +206,9 @@ std::string make_appendix(const ReportView& view) {
 }
 
 std::string make_flexibility(const ReportView& view) {
-  const jobs::ResultTable table = jobs::compare_couplers(view.sweep, view.results, view.metric);
+  const jobs::ResultTable table = jobs::compare_links(view.sweep, view.results, view.metric);
   if (!says_more_than(table, "verdict", "one_run_each"))
-    return "<p>One run each: whether the flexible coupler helps is not known without replicates.</p>\n";
+    return "<p>One run each: whether the flexible link helps is not known without replicates.</p>\n";
   return make_titled_table(
       table, {"metric", "along", "rigid_spread", "rigid_min", "rigid_max", "flexible_spread", "flexible_min",
               "flexible_max", "rigid_count", "flexible_count"});

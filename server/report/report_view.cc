@@ -27,29 +27,13 @@ std::optional<std::string> choose_along(const jobs::ResultTable& results,
   return std::nullopt;
 }
 
-/// Coordinates of a described linkage that move by a law: "crank", or "guide_slide" of several freedoms.
-std::vector<std::string> driven_coordinates(const nlohmann::json& sweep) {
-  const auto joints = nlohmann::json::json_pointer("/request/parameters/linkage/joints");
-  std::vector<std::string> driven;
-  if (!sweep.contains(joints)) return driven;
-  const auto law = nlohmann::json::json_pointer("/drive/law");
-  for (const auto& [name, joint] : sweep.at(joints).items()) {
-    if (joint.contains(law)) driven.push_back(name);
-    const auto freedoms = joint.value("freedoms", nlohmann::json::object());
-    for (const auto& [part, freedom] : freedoms.items())
-      if (freedom.contains(law)) driven.push_back(name + "_" + part);
-  }
-  return driven;
-}
-
 }  // namespace
 
 ReportView::ReportView(const nlohmann::json& of_sweep, const jobs::ResultTable& of_results,
                        const ReportQuery& query)
     : sweep(of_sweep),
       results(of_results),
-      metric(query.metric.empty() ? jobs::choose_free_metric(of_results, driven_coordinates(of_sweep))
-                                  : jobs::choose_metric(of_results, query.metric)),
+      metric(jobs::choose_free_metric(of_sweep, of_results, query.metric)),
       metric_column(jobs::find_metric(of_results, metric)),
       axes(of_sweep.at("axes").get<std::vector<std::string>>()),
       along(choose_along(of_results, axes, query.x)),

@@ -7,6 +7,10 @@ import { nameOf, number, pointOf, titleOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, axisColumns, bars, table, valueAxis, where } from "/analysis/parts.js";
 
+/// Whether an axis makes a link rigid or flexible.
+/** @param {string} axis */
+export const isOfLink = (axis) => axis === "coupler" || /^linkage\.bodies\..*\.beam\.elements$/.test(axis);
+
 const percent = (part) => (part === null ? "–" : `${number(100 * part, 3)} %`);
 
 /**
@@ -16,7 +20,7 @@ const percent = (part) => (part === null ? "–" : `${number(100 * part, 3)} %`)
  */
 export async function flexibilityCard(element, { sweep, metric }, signal) {
   const rows = await findAnalysis(sweep.id, "flexibility", { metric }, signal);
-  const axes = sweep.axes.filter((axis) => axis !== "coupler");
+  const axes = sweep.axes.filter((axis) => axis in rows[0]);
   const along = rows[0]?.along;
   const drawing = h("div", { class: "chart tall", hidden: !along });
   const reversed = rows.filter((row) => row.reverses_from !== null);
@@ -30,7 +34,7 @@ export async function flexibilityCard(element, { sweep, metric }, signal) {
     table("Rigid and flexible", rows, [...axisColumns(axes), ["Flexible / rigid", (row) => number(row.ratio)],
     ["Range", (row) => (isSingle(row) ? "–" : `${number(row.ratio_least)} to ${number(row.ratio_largest)}`)],
     ["Verdict", verdictOf],
-    ["Coupler loss [J]", (row) => number(row.coupler_loss_j)],
+    ["Structural loss [J]", (row) => number(row.coupler_loss_j)],
     ["Share of all losses", (row) => percent(row.coupler_loss_part)]]));
   return along ? makeChart(drawing, () => optionOf(rows, axes, along, metric),
     "Ratio of flexible to rigid; the table below has the same numbers", signal) : null;

@@ -35,7 +35,8 @@ function jointWords(joint, usual) {
 function bodyWords({ mass_kg: mass, beam }) {
   const elements = isObject(beam) && typeof beam.elements === "number" ? ` of ${beam.elements} elements` : "";
   const weight = typeof mass === "number" ? `${number(mass)} kg` : "";
-  return [weight, isObject(beam) ? `flexible beam${elements}` : "", weight || beam ? "" : "no mass given"]
+  const shape = isObject(beam) ? (beam.elements === 1 ? "rigid beam" : `flexible beam${elements}`) : "";
+  return [weight, shape, weight || beam ? "" : "no mass given"]
     .filter(Boolean).join(", ");
 }
 

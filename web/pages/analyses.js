@@ -7,7 +7,7 @@ import { quantityChoice } from "/core/quantities.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, usualMetric } from "/study/data.js";
 import { bifurcationCard } from "/analysis/bifurcation.js";
-import { flexibilityCard } from "/analysis/flexibility.js";
+import { flexibilityCard, isOfLink } from "/analysis/flexibility.js";
 import { lyapunovCard } from "/analysis/lyapunov.js";
 import { bearsOnPaper, paperCard } from "/analysis/paper.js";
 import { sensitivityCard } from "/analysis/sensitivity.js";
@@ -57,9 +57,9 @@ function cardsFor({ sweep, numbers, isRpsup, hasClearance }) {
     isRpsup && bearsOnPaper(sweep.axes)
       && ["The paper's statements", "Ratios of the largest slider acceleration in the steady window. "
       + "Statement 1 holds within 5 %, statements 2 to 5 within 20 %, 6 and 7 below 1.", paperCard],
-    sweep.axes.includes("coupler")
+    sweep.axes.some(isOfLink)
       && ["Effect of flexibility",
-        "Metric with the flexible coupler / metric with the rigid one; bars: range over the replicates.",
+        "Metric with the flexible link / metric with the rigid one; bars: range over the replicates.",
         flexibilityCard],
     type && ["morris", "saltelli"].includes(type)
       && ["Sensitivity", type === "morris" ? "Morris: elementary effects of the whole range of each parameter."

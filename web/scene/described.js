@@ -132,7 +132,8 @@ export class DescribedLinkage {
     const elements = links.filter((link) => link.startsWith(`${name}_`) && /^\d+$/.test(link.slice(name.length + 1)))
       .sort((a, b) => Number(a.split("_").at(-1)) - Number(b.split("_").at(-1)));
     const tube = new this.THREE.Mesh(new this.THREE.BufferGeometry(), material);
-    this.beams.set(name, { elements, end: beam.length_m / (elements.length - 1) / 2, tube });
+    this.beams.set(name, elements.length === 0 ? { elements: [name], end: beam.length_m, tube }
+      : { elements, end: beam.length_m / (elements.length - 1) / 2, tube });
     this.group.add(tube);
   }
 

@@ -41,8 +41,8 @@ json cell(const jobs::ResultTable& table, std::size_t row, const std::string& co
   return table.rows.at(row).at(static_cast<std::size_t>(found - table.columns.begin()));
 }
 
-TEST(CompareCouplers, PairsRigidAndFlexibleJobsWithTheirSpread) {
-  const auto table = compare_couplers(kSweep,
+TEST(CompareLinks, PairsRigidAndFlexibleJobsWithTheirSpread) {
+  const auto table = compare_links(kSweep,
                                       table_of({{"rigid", 5, 100, 0},
                                                 {"rigid", 5, 100, 0},
                                                 {"flexible", 5, 60, 1},
@@ -85,8 +85,8 @@ const std::vector<Row> kTurning{
     {"rigid", 11, 100, 0}, {"flexible", 11, 99.95, 1},  {"rigid", 12, 100, 0}, {"flexible", 12, 60, 1}};
 
 // Without clearance the ratio is 1 but for rounding: that is no difference, and none to reverse from.
-TEST(CompareCouplers, SaysNothingOfDifferencesThatAreSmallerThanErrors) {
-  const auto table = compare_couplers(kSweep, table_of(twice(kTurning)), kPeak);
+TEST(CompareLinks, SaysNothingOfDifferencesThatAreSmallerThanErrors) {
+  const auto table = compare_links(kSweep, table_of(twice(kTurning)), kPeak);
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(cell(table, 0, "verdict"), "either");
   EXPECT_EQ(cell(table, 1, "verdict"), "harms");
@@ -97,8 +97,8 @@ TEST(CompareCouplers, SaysNothingOfDifferencesThatAreSmallerThanErrors) {
   EXPECT_EQ(cell(table, 3, "reverses_from"), 10.0);
 }
 
-TEST(CompareCouplers, GivesNoVerdictOnSingleRuns) {
-  const auto table = compare_couplers(kSweep, table_of(kTurning), kPeak);
+TEST(CompareLinks, GivesNoVerdictOnSingleRuns) {
+  const auto table = compare_links(kSweep, table_of(kTurning), kPeak);
   ASSERT_EQ(table.rows.size(), 4U);
   for (std::size_t row = 0; row < 4; ++row) {
     EXPECT_EQ(cell(table, row, "verdict"), "one_run_each");
@@ -107,16 +107,16 @@ TEST(CompareCouplers, GivesNoVerdictOnSingleRuns) {
   EXPECT_EQ(cell(table, 1, "ratio"), 1.3);
 }
 
-TEST(CompareCouplers, LeavesOutWhatHasNoPartner) {
+TEST(CompareLinks, LeavesOutWhatHasNoPartner) {
   const auto table =
-      compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, nullptr, nullptr}}), kPeak);
+      compare_links(kSweep, table_of({{"rigid", 5, 100, 0}, {"flexible", 5, nullptr, nullptr}}), kPeak);
   EXPECT_TRUE(cell(table, 0, "ratio").is_null());
   EXPECT_TRUE(cell(table, 0, "verdict").is_null());
   EXPECT_TRUE(cell(table, 0, "coupler_loss_j").is_null());
   EXPECT_THROW(
-      (void)compare_couplers({{"axes", {"crank_velocity_rad_s"}}}, table_of({{"rigid", 5, 100, 0}}), kPeak),
+      (void)compare_links({{"axes", {"crank_velocity_rad_s"}}}, table_of({{"rigid", 5, 100, 0}}), kPeak),
       jobs::WrongState);
-  EXPECT_THROW((void)compare_couplers(kSweep, table_of({{"rigid", 5, 100, 0}}), "coupler"),
+  EXPECT_THROW((void)compare_links(kSweep, table_of({{"rigid", 5, 100, 0}}), "coupler"),
                jobs::InvalidRequest);
 }
 

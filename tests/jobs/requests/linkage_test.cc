@@ -162,6 +162,14 @@ TEST(RpsupByData, GivesTheSameBytesWithAFlexibleCoupler) {
   expect_same_bytes(described, {{"duration_s", 0.02}, {"coupler", "flexible"}}, same_with_clearance());
 }
 
+TEST(RpsupByData, HasARigidCouplerOfABeamOfOneElement) {
+  json described = example("rpsup");
+  described["duration_s"] = 0.05;
+  described["linkage"]["bodies"]["coupler"] = make_beam(0.0005);
+  described["linkage"]["bodies"]["coupler"]["beam"]["elements"] = 1;
+  expect_same_bytes(described, {{"duration_s", 0.05}}, same_with_clearance());
+}
+
 /// The example with the geometry of a built-in linkage, whose guesses begin where the built-in ones do.
 json describe_geometry(const json& built_in) {
   const json all = jobs::complete_parameters(built_in, "");
