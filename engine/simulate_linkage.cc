@@ -20,7 +20,7 @@ RunResult simulate_linkage(const Linkage& linkage, const RunOptions& options, do
   LinkageQuantities quantities(linkage, built, steady_from);
   RunObserver observer(RunMetrics(quantities.measured()),
                        RunChannels(quantities.channels(), built.mechanism.links, quantities.prepare()),
-                       stop_requested);
+                       stop_requested, quantities.sliding_work());
   observer.channels.reserve(SampleTimes(options.output_rate, options.duration).count());
   const RunOutcome outcome = simulate(built.mechanism, options, observer);
   RunResult result{.status = outcome.status, .t_end = outcome.t, .detail = outcome.detail};

@@ -2,7 +2,7 @@
 #include "engine/simulate_rpsup.h"
 
 #include <optional>
-#include <utility>
+#include <span>
 
 #include "engine/analysis/ideal_peak.h"
 #include "engine/analysis/rpsup_quantities.h"
@@ -14,35 +14,14 @@
 
 namespace engine {
 
-namespace {
-
-/// Gathers what slid in the joint beside channels and metrics, which read it.
-class RpsupObserver final : public RunObserver {
- public:
-  RpsupObserver(RunMetrics run_metrics, RunChannels run_channels, SlidingWork& sliding_work,
-                const StopQuery& stop_requested)
-      : RunObserver(std::move(run_metrics), std::move(run_channels), stop_requested),
-        sliding_work_(sliding_work) {}
-
-  void on_step(const Evaluation& start, const Evaluation& end) override {
-    sliding_work_.take_step(start, end);
-    RunObserver::on_step(start, end);
-  }
-
- private:
-  SlidingWork& sliding_work_;
-};
-
-}  // namespace
-
 RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& options,
                          const StopQuery& stop_requested) {
   check_parameters(parameters, options);
   const Rpsup rpsup = build_rpsup(parameters);
   SlidingWork sliding_work(parameters);
-  RpsupObserver observer(RunMetrics(rpsup_measured(parameters, rpsup)),
-                         RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
-                         sliding_work, stop_requested);
+  RunObserver observer(RunMetrics(rpsup_measured(parameters, rpsup)),
+                       RunChannels(rpsup_channels(parameters, rpsup, sliding_work), rpsup.mechanism.links),
+                       stop_requested, std::span(&sliding_work, 1));
   observer.channels.reserve(SampleTimes(options.output_rate, options.duration).count());
   const RunOutcome outcome = simulate(rpsup.mechanism, options, observer);
   RunResult result{.status = outcome.status, .t_end = outcome.t, .detail = outcome.detail};

@@ -53,6 +53,7 @@ std::optional<KeyClash> find_clash_of(const char* what, const std::vector<Quanti
 
 LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage& built, double steady_from)
     : built_(built), reactions_(built.mechanism) {
+  sliding_work_.reserve(linkage.joints.size());
   measured_.steady_from = steady_from;
   measured_.prepare = prepare();
   add_channel("t_s", "Time", [](const Evaluation& at) { return at.t; });
@@ -91,6 +92,13 @@ void LinkageQuantities::add_channel(std::string key, std::string help, Reading r
   channel_sources_.push_back(source_);
 }
 
+void LinkageQuantities::add_channels(std::span<Channel> channels) {
+  for (Channel& channel : channels) {
+    channels_.push_back(std::move(channel));
+    channel_sources_.push_back(source_);
+  }
+}
+
 void LinkageQuantities::add_metric(QuantityInfo info, Result result) {
   metrics_.push_back(std::move(info));
   metric_sources_.push_back(source_);
@@ -123,10 +131,8 @@ void LinkageQuantities::add_sampled_load(const std::string& stem, const std::str
 
 void LinkageQuantities::add_extremes(const std::string& stem, const std::string& unit, const Reading& read,
                                      Channel::Kind kind, std::size_t index) {
-  for (Channel& channel : extreme_channels(stem, unit, read, kind, index)) {
-    channels_.push_back(std::move(channel));
-    channel_sources_.push_back(source_);
-  }
+  auto extremes = extreme_channels(stem, unit, read, kind, index);
+  add_channels(extremes);
 }
 
 void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex i) {
@@ -289,6 +295,7 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
   add_contact_time(joint.name + "_contact_time_ratio",
                    "Fraction of the whole run in which the journal touches the bore", {.joint = cut});
+  if (joint.clearance->geometry == ContactGeometry::kJournalInBore) add_sliding_work(joint, cut);
   if (!std::isfinite(joint.clearance->c_a)) return;
   add_sampled_load(joint.name + "_face_force", "_n",
                    "Sum of the normal forces of the shoulders on the journal's faces",
@@ -298,6 +305,16 @@ void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut
   add_contact_time(joint.name + "_face_contact_time_ratio",
                    "Fraction of the whole run in which a face of the journal touches its shoulder",
                    {.joint = cut, .of_faces = true});
+}
+
+void LinkageQuantities::add_sliding_work(const LinkageJoint& joint, std::size_t cut) {
+  const SlidingWork& work = sliding_work_.emplace_back(*joint.clearance, cut);
+  auto of_rings = work.channels(joint.name + "_");
+  add_channels(of_rings);
+  add_metric({.key = joint.name + "_sliding_work_j",
+              .help = "Time integral of normal contact force × sliding speed over the whole run; by "
+                      "Archard's law worn volume = wear coefficient × sliding work"},
+             [&work](const auto&, const auto&) { return work.total(); });
 }
 
 void LinkageQuantities::add_contact_time(const std::string& key, const char* help,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/dynamics/joint_reactions.h"
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
+#include "engine/analysis/sliding_work.h"
 #include "engine/integrate/run_outcome.h"
 #include "engine/model/linkage.h"
 
@@ -33,6 +35,8 @@ class LinkageQuantities {
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
   [[nodiscard]] const Measured& measured() const { return measured_; }
   [[nodiscard]] Preparation prepare();
+  /// Of the joints with a bore: channels and metrics read it, a run has to move it on.
+  [[nodiscard]] std::span<SlidingWork> sliding_work() { return sliding_work_; }
   /// All channels, those of the poses with them.
   [[nodiscard]] std::vector<QuantityInfo> channel_table() const;
   [[nodiscard]] const std::vector<QuantityInfo>& metric_table() const { return metrics_; }
@@ -51,6 +55,7 @@ class LinkageQuantities {
   void add_joint(const LinkageJoint& joint, const BuiltJoint& built);
   void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
   void add_clearance(const LinkageJoint& joint, std::size_t cut);
+  void add_sliding_work(const LinkageJoint& joint, std::size_t cut);
   void add_contact_time(const std::string& key, const char* help, Measured::Contact contact);
   void add_spring(const LinkageSpring& spring, std::size_t index);
   void add_body_load(const LinkageLoad& load, std::size_t index);
@@ -68,6 +73,7 @@ class LinkageQuantities {
   /// metrics of its peak.
   void add_sampled_load(const std::string& stem, const std::string& unit, std::string help,
                         std::string peak_help, const Reading& read);
+  void add_channels(std::span<Channel> channels);
   void add_extremes(const std::string& stem, const std::string& unit, const Reading& read,
                     Channel::Kind kind, std::size_t index);
 
@@ -83,6 +89,7 @@ class LinkageQuantities {
   Measured measured_;
   std::vector<QuantityInfo> metrics_;
   std::vector<Result> results_;
+  std::vector<SlidingWork> sliding_work_;  ///< stays where it is: channels refer to it
 };
 
 }  // namespace engine

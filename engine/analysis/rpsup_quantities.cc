@@ -182,30 +182,6 @@ void add_energy_channels(std::vector<Channel>& channels) {
        .kind = Channel::Kind::kImbalance});
 }
 
-/// Of one ring of the journal.
-void add_sliding_work(int ring, const RpsupParameters& parameters, const SlidingWork& sliding_work,
-                      std::vector<Channel>& channels) {
-  const bool clearance = parameters.c_r > 0.0;
-  const std::string key = "ring_" + std::to_string(ring + 1) + "_sliding_work";
-  const auto read = [&](double SlidingWork::Ring::*part) -> Reading {
-    if (!clearance) return none;
-    return [&sliding_work, ring, part](const Evaluation& at) {
-      return sliding_work.at(static_cast<std::size_t>(ring), sliding_work.fraction_of(at.t)).*part;
-    };
-  };
-  const std::string work =
-      "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
-  const auto add = [&](const char* unit, const char* condition, double SlidingWork::Ring::*part) {
-    add_reading(channels, key + unit, work + condition, read(part));
-  };
-  add("_j", "; null without clearance", &SlidingWork::Ring::work);
-  add("_x_j", ", weighted with x of the contact normal", &SlidingWork::Ring::work_x);
-  add("_y_j", ", weighted with y of the contact normal", &SlidingWork::Ring::work_y);
-  if (!parameters.wear_depth.empty())
-    add("_penetration_j_m", ", weighted with the penetration; of worn bores only",
-        &SlidingWork::Ring::work_delta);
-}
-
 }  // namespace
 
 std::span<const QuantityInfo> metric_table() {
@@ -310,8 +286,7 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
     add_reading(channels, link.name + "_deflection_mm",
                 "Distance of the link's end from its place on the undeformed link",
                 [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); });
-  for (int ring = 0; ring < parameters.radial_levels; ++ring)
-    add_sliding_work(ring, parameters, sliding_work, channels);
+  std::ranges::move(sliding_work.channels(""), std::back_inserter(channels));
   return channels;
 }
 

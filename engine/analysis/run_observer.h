@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <utility>
+
 #include "engine/analysis/run_channels.h"
 #include "engine/analysis/run_metrics.h"
 #include "engine/analysis/run_result.h"
+#include "engine/analysis/sliding_work.h"
 #include "engine/integrate/observer.h"
 
 namespace engine {
@@ -11,10 +15,16 @@ namespace engine {
 /// Gathers channels and metrics of one run.
 class RunObserver : public Observer {
  public:
-  RunObserver(RunMetrics run_metrics, RunChannels run_channels, const StopQuery& stop_requested)
-      : metrics(std::move(run_metrics)), channels(std::move(run_channels)), stop_requested_(stop_requested) {}
+  /// @param sliding_work  what channels and metrics read of it; follows the run
+  RunObserver(RunMetrics run_metrics, RunChannels run_channels, const StopQuery& stop_requested,
+              std::span<SlidingWork> sliding_work = {})
+      : metrics(std::move(run_metrics)),
+        channels(std::move(run_channels)),
+        stop_requested_(stop_requested),
+        sliding_work_(sliding_work) {}
 
   void on_step(const Evaluation& start, const Evaluation& end) override {
+    for (SlidingWork& work : sliding_work_) work.take_step(start, end);
     metrics.take_step(start, end);
     channels.take_step(start, end, metrics.loads());
   }
@@ -32,6 +42,7 @@ class RunObserver : public Observer {
 
  private:
   const StopQuery& stop_requested_;
+  std::span<SlidingWork> sliding_work_;
 };
 
 }  // namespace engine

@@ -15,6 +15,7 @@ namespace {
 ClearanceParameters joint_of(const RpsupParameters& parameters) {
   if (parameters.c_r > 0.0) return make_clearance(parameters);
   ClearanceParameters none;
+  none.c_r = 0.0;
   none.n_r = parameters.radial_levels;
   return none;
 }
@@ -43,8 +44,11 @@ SlidingWork::RingContact calc_ring_contact(const ClearanceParameters& joint, con
 
 }  // namespace
 
-SlidingWork::SlidingWork(const RpsupParameters& parameters)
-    : joint_(joint_of(parameters)),
+SlidingWork::SlidingWork(const RpsupParameters& parameters) : SlidingWork(joint_of(parameters), 0) {}
+
+SlidingWork::SlidingWork(const ClearanceParameters& joint, std::size_t index)
+    : joint_(joint),
+      index_(index),
       before_(static_cast<std::size_t>(joint_.n_r)),
       after_(before_),
       contacts_(before_.size()) {}
@@ -73,10 +77,10 @@ void SlidingWork::take_step(const Evaluation& start, const Evaluation& end) {
   before_ = after_;
   const double half = 0.5 * (end.t - start.t);
   // Else the journal is where the step before left it.
-  if (start.t != end_) calc_ring_contacts(start.joints[0]);
-  add(start.joints[0], half);
-  calc_ring_contacts(end.joints[0]);
-  add(end.joints[0], half);
+  if (start.t != end_) calc_ring_contacts(start.joints[index_]);
+  add(start.joints[index_], half);
+  calc_ring_contacts(end.joints[index_]);
+  add(end.joints[index_], half);
   start_ = start.t;
   end_ = end.t;
 }
@@ -92,6 +96,32 @@ double SlidingWork::total() const {
   double sum = 0.0;
   for (const Ring& ring : after_) sum += ring.work;
   return sum;
+}
+
+std::vector<Channel> SlidingWork::channels(const std::string& prefix) const {
+  const bool has_clearance = joint_.c_r > 0.0;
+  std::vector<Channel> channels;
+  for (std::size_t ring = 0; ring < after_.size(); ++ring) {
+    const auto add = [&](const char* ending, const char* more, double Ring::*part) {
+      Channel& channel = channels.emplace_back();
+      channel.info.key = prefix + "ring_" + std::to_string(ring + 1) + "_sliding_work" + ending;
+      channel.info.help =
+          "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
+      channel.info.help += more;
+      if (has_clearance)
+        channel.read = [this, ring, part](const Evaluation& instant) {
+          return at(ring, fraction_of(instant.t)).*part;
+        };
+      else
+        channel.read = [](const Evaluation&) { return kNoValue; };
+    };
+    add("_j", prefix.empty() ? "; null without clearance" : "", &Ring::work);
+    add("_x_j", ", weighted with x of the contact normal", &Ring::work_x);
+    add("_y_j", ", weighted with y of the contact normal", &Ring::work_y);
+    if (joint_.worn)
+      add("_penetration_j_m", ", weighted with the penetration; of worn bores only", &Ring::work_delta);
+  }
+  return channels;
 }
 
 }  // namespace engine

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "engine/analysis/run_channels.h"
 #include "engine/clearance/clearance_parameters.h"
 #include "engine/dynamics/evaluation.h"
 #include "engine/model/rpsup_parameters.h"
@@ -37,6 +39,8 @@ class SlidingWork {
   };
 
   explicit SlidingWork(const RpsupParameters& parameters);
+  /// @param joint  with a bore  @param index  its number among Evaluation::joints
+  SlidingWork(const ClearanceParameters& joint, std::size_t index);
 
   void take_step(const Evaluation& start, const Evaluation& end);
 
@@ -49,13 +53,18 @@ class SlidingWork {
   /// Of all rings together, [J].
   [[nodiscard]] double total() const;
 
+  /// Channels of W and W_n of each ring, and of W_delta in a worn bore, which read this.
+  /// @param prefix  of their keys
+  [[nodiscard]] std::vector<Channel> channels(const std::string& prefix) const;
+
  private:
   void calc_ring_contacts(const JointState& joint);
   /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring. @param joint  as
   /// calc_ring_contacts() had it
   void add(const JointState& joint, double time);
 
-  const ClearanceParameters joint_;
+  const ClearanceParameters joint_;  ///< c_r = 0: without clearance
+  const std::size_t index_;
   std::vector<Ring> before_, after_;  ///< at the ends of the last step
   double start_ = 0.0, end_ = -1.0;   ///< of it, [s]; the other way round if there is none
   std::vector<RingContact> contacts_;        ///< of each ring at the end of the last step

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "engine/analysis/quantities.h"
 #include "engine/clearance/worn_bore.h"
 #include "jobs/base/errors.h"
+#include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/wear/pressed_arc.h"
 
@@ -20,6 +22,18 @@ using nlohmann::json;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+constexpr std::string_view kFirstRing = "_ring_1_sliding_work_j";
+
+std::string key_of(const std::string& prefix, int ring) {
+  return prefix + "ring_" + std::to_string(ring) + "_sliding_work";
+}
+
+/// The object of a joint in a description; a universal one has two bearings, of its first and second axis.
+const json& joint_of(const json& joints, const std::string& name) {
+  if (joints.contains(name)) return joints.at(name);
+  return joints.at(name.substr(0, name.rfind('_')));
+}
+
 /// The channels of a ring: its sliding work, the same times the normal and, in a worn bore, times the
 /// penetration.
 struct RingChannels {
@@ -29,8 +43,8 @@ struct RingChannels {
   const std::vector<double>* work_penetration;
 };
 
-RingChannels ring_channels(const engine::Trajectory& run, int ring, bool worn) {
-  const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
+RingChannels ring_channels(const engine::Trajectory& run, const std::string& prefix, int ring, bool worn) {
+  const std::string key = key_of(prefix, ring);
   const auto find = [&](const std::string& channel) -> const std::vector<double>& {
     const auto found = std::ranges::find(run.channels, channel, &engine::QuantityInfo::key);
     if (found == run.channels.end()) {
@@ -62,23 +76,45 @@ std::vector<double> gather(const RingChannels& ring, std::size_t sectors, Presse
 
 }  // namespace
 
-std::vector<std::string> wear_channels(const json& parameters) {
+WornBearing find_worn_bearing(const json& parameters, const std::vector<std::string>& kept,
+                              const std::string& joint) {
+  if (!describes_linkage(parameters)) {
+    if (joint.empty()) return {.prefix = "", .parameters = parameters};
+    throw InvalidRequest(std::vector<Fault>{{"/joint", "belongs to described linkages: leave it out"}});
+  }
+  std::vector<std::string> joints;
+  for (const std::string& channel : kept)
+    if (channel.ends_with(kFirstRing))
+      joints.push_back(channel.substr(0, channel.size() - kFirstRing.size()));
+  if (joints.empty())
+    throw WrongState("no joint of this job has a journal that slides in a bore with clearance");
+  const std::string& name = joint.empty() ? joints.front() : joint;
+  if (std::ranges::find(joints, name) == joints.end())
+    throw InvalidRequest(
+        std::vector<Fault>{{"/joint", "must be one of " + json(joints).dump() + ", the joints with a bore"}});
+  WornBearing bearing{.prefix = name + "_", .parameters = parameters};
+  bearing.parameters.update(joint_of(parameters.at("linkage").at("joints"), name).at("clearance"));
+  return bearing;
+}
+
+std::vector<std::string> wear_channels(const WornBearing& bearing) {
   std::vector<std::string> channels;
-  const bool worn = parameters.contains(kWearKey);
-  for (int ring = 1; ring <= parameters.at("radial_levels").get<int>(); ++ring) {
-    const std::string key = "ring_" + std::to_string(ring) + "_sliding_work";
+  const bool worn = bearing.parameters.contains(kWearKey);
+  for (int ring = 1; ring <= bearing.parameters.at("radial_levels").get<int>(); ++ring) {
+    const std::string key = key_of(bearing.prefix, ring);
     for (const char* const part : {"_j", "_x_j", "_y_j"}) channels.push_back(key + part);
     if (worn) channels.push_back(key + "_penetration_j_m");
   }
   return channels;
 }
 
-ResultTable make_wear_map(const json& parameters, const engine::Trajectory& run, const WearQuery& query) {
+ResultTable make_wear_map(const WornBearing& bearing, const engine::Trajectory& run, const WearQuery& query) {
+  const json& parameters = bearing.parameters;
   const double clearance_mm = parameters.at("clearance_mm");
   if (!(clearance_mm > 0.0)) throw WrongState("the joint of this job has no clearance, and does not slide");
   if (query.worn_clearance && !(*query.worn_clearance > clearance_mm)) {
     throw InvalidRequest(
-        std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the job, " +
+        std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the joint, " +
                                                       number_text(clearance_mm) + " mm"}});
   }
   if (run.columns.at(0).size() < 2) throw WrongState("a wear map needs two samples or more");
@@ -102,7 +138,8 @@ ResultTable make_wear_map(const json& parameters, const engine::Trajectory& run,
     std::optional<PressedArc> arc;
     if (bore) arc.emplace(*bore, ring - 1, 1e-3 * clearance_mm, query.sectors);
     const auto work =
-        gather(ring_channels(run, ring, bore.has_value()), query.sectors, arc ? &*arc : nullptr);
+        gather(ring_channels(run, bearing.prefix, ring, bore.has_value()), query.sectors,
+               arc ? &*arc : nullptr);
     for (std::size_t s = 0; s < work.size(); ++s) {
       const double depth_um = 1e6 * query.wear_coefficient * work[s] / area;
       const double rate = depth_um / hours;

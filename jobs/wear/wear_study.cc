@@ -68,11 +68,12 @@ class WearRates {
                              const WearStudyRequest& study) {
     json parameters = study.completed;
     parameters[kWearKey] = depth_um;
+    const WornBearing bearing{.prefix = "", .parameters = parameters};
     const TrajectoryQuery steady{
-        .channels = wear_channels(parameters), .from = parameters.at("run_up_s").get<double>(), .to = {}};
+        .channels = wear_channels(bearing), .from = parameters.at("run_up_s").get<double>(), .to = {}};
     WearQuery query = study.query;
     query.worn_clearance.reset();
-    const ResultTable map = make_wear_map(parameters, read_trajectory(trajectory, steady), query);
+    const ResultTable map = make_wear_map(bearing, read_trajectory(trajectory, steady), query);
     WearGrid rates = study.round_bore();
     for (std::size_t k = 0; k < map.rows.size(); ++k) {
       rates[k / query.sectors][k % query.sectors] = map.rows[k][kRateColumn].get<double>();

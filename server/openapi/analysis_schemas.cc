@@ -52,7 +52,9 @@ Json make_flexibility() {
       {"reverses_from", described(kNumberOrNull,
                                   "the last value of the parameter `along` at which the ratio was not 1 "
                                   "within 0.1 %, if it was on the other side of 1 there")},
-      {"coupler_loss_j", described(kNumberOrNull, "energy that the coupler's dampers take")},
+      {"coupler_loss_j", described(kNumberOrNull,
+                                   "energy that the dampers of flexible jobs take, those of flexible links "
+                                   "and of joints")},
       {"coupler_loss_part", described(kNumberOrNull, "its part of all losses")}};
   for (const std::string coupler : {"rigid", "flexible"}) {
     properties[coupler + "_count"] = kCount;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -95,8 +96,12 @@ const engine::LinkageTables& sample_tables() {
   static const engine::LinkageTables tables = [] {
     engine::LinkageTables made = make_sample_tables();
     std::erase_if(made.channels, [](const engine::QuantityInfo& channel) {
-      return channel.key.starts_with("pose_other") || channel.key.starts_with("pose_third");
+      return channel.key.starts_with("pose_other") || channel.key.starts_with("pose_third") ||
+             channel.key.find("_ring_2_") != std::string::npos;
     });
+    for (engine::QuantityInfo& channel : made.channels)
+      if (const auto ring = channel.key.find("_ring_1_"); ring != std::string::npos)
+        channel.key.replace(ring, 8, "_ring_{ring}_");
     return made;
   }();
   return tables;

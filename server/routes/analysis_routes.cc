@@ -87,7 +87,7 @@ Response make_rows(const RequestContext& context, TableFormat format, const jobs
 
 /// The metric that a query asks for, of those that the sweep's linkages have.
 std::string metric_of(const Query& query, const SweepAndResults& found) {
-  return jobs::choose_metric(found.results, query.text("metric").value_or(""));
+  return jobs::choose_free_metric(found.sweep, found.results, query.text("metric").value_or(""));
 }
 
 /// Names of all channels of a job; none of a job that is not there.
@@ -127,12 +127,9 @@ auto with_one_channel(const Ask& ask) {
 
 /// Channels of a wear map. Older programs did not keep all of them.
 std::optional<engine::Trajectory> find_wear_trajectory(const RequestContext& context,
-                                                       const nlohmann::json& parameters,
+                                                       const jobs::WornBearing& bearing,
                                                        jobs::TrajectoryQuery part) {
-  if (jobs::describes_linkage(parameters))
-    throw jobs::WrongState("only jobs of the RPSUP linkage have a map of the bore's wear; job " + context.id +
-                           " describes its own linkage");
-  part.channels = jobs::wear_channels(parameters);
+  part.channels = jobs::wear_channels(bearing);
   try {
     return context.service.find_trajectory(context.id, part);
   } catch (const jobs::InvalidRequest& invalid) {
@@ -216,7 +213,7 @@ Response get_flexibility(const RequestContext& context) {
   Query query(context.request, {"metric", "format"});
   const TableFormat format = find_row_format(context.request, query);
   const auto table = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
-    return jobs::compare_couplers(found.sweep, found.results, metric_of(query, found));
+    return jobs::compare_links(found.sweep, found.results, metric_of(query, found));
   });
   return make_rows(context, format, table, "flexibility");
 }
@@ -313,21 +310,24 @@ Response get_poincare(const RequestContext& context) {
 
 Response get_wear(const RequestContext& context) {
   Query query(context.request,
-              {"wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
+              {"joint", "wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
   const TableFormat format = find_row_format(context.request, query);
   jobs::WearQuery wanted;
   wanted.wear_coefficient =
       query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
   wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
   wanted.worn_clearance = query.number("worn_clearance_mm");
+  const std::string joint = query.text("joint").value_or("");
   const jobs::TrajectoryQuery part{
       .channels = {}, .from = query.number("from"), .to = query.number("to")};
   query.check();
   const auto job = context.service.find_job(context.id);
   if (!job) throw HttpError(404, "there is no job " + context.id);
-  const auto run = find_wear_trajectory(context, job->at("parameters"), part);
+  const jobs::WornBearing bearing =
+      jobs::find_worn_bearing(job->at("parameters"), list_channels(context, context.id), joint);
+  const auto run = find_wear_trajectory(context, bearing, part);
   if (!run) throw no_trajectory(context);
-  return make_rows(context, format, make_wear_map(job->at("parameters"), *run, wanted), "wear");
+  return make_rows(context, format, make_wear_map(bearing, *run, wanted), "wear");
 }
 
 }  // namespace server

@@ -504,6 +504,13 @@ test("forces in the joints of a described linkage are arrows, too", async () => 
   const largest = Math.max(...joints.map((joint) => metrics[`peak_${joint}_reaction_n`]));
   assert.ok(Math.abs(told * 1.5 / largest - 1) < 0.01, `${told} N, ${largest} N at most`);
   await page.getByLabel("Force scale").selectOption("10");
+  await page.getByText("Wear of the bearing").click();
+  const depth = page.getByText(/^Maximum depth: /);
+  await depth.waitFor();
+  const before = await depth.textContent();
+  await page.getByLabel("Joint", { exact: true }).selectOption("slider_pin");
+  await page.waitForFunction((text) => [...document.querySelectorAll("p[role=status]")]
+    .some(({ textContent }) => textContent.startsWith("Maximum depth: ") && textContent !== text), before);
   await picture(page, "described_forces");
   await expectAccessible(page);
   await leave(page);

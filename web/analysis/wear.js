@@ -4,26 +4,30 @@
 import { depthAxis } from "/analysis/polar.js";
 import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
-import { h, notify } from "/core/dom.js";
+import { choice, h, notify } from "/core/dom.js";
 import { exact, number } from "/core/format.js";
 import { latest } from "/core/live.js";
 import { colour, lineColour } from "/core/theme.js";
 
-/** @param {Api.Job} job  @param {AbortSignal} signal */
-export function wearCard(job, signal) {
+/**
+ * @param {Api.Job} job
+ * @param {{ name: string }[]} joints  with a bore  @param {AbortSignal} signal
+ */
+export function wearCard(job, joints, signal) {
+  if (joints.length === 0) return null;
   const body = h("div");
   const details = h("details", { class: "card", ontoggle: () => {
     if (!details.open || body.hasChildNodes()) return;
-    fill(body, job, signal)
+    fill(body, job, joints.map(({ name }) => name), signal)
       .catch((error) => error.name !== "AbortError"
         && body.replaceChildren(h("p", { class: "trouble" }, error.message)));
   } }, h("summary", {}, "Wear of the bearing"), body);
   return details;
 }
 
-/** @param {HTMLElement} body  @param {Api.Job} job  @param {AbortSignal} signal */
-async function fill(body, job, signal) {
-  const view = { wear_coefficient_m2_n: "1e-15", worn_clearance_mm: "", sectors: 72 };
+/** @param {HTMLElement} body  @param {Api.Job} job  @param {string[]} joints  @param {AbortSignal} signal */
+async function fill(body, job, joints, signal) {
+  const view = { joint: joints[0], wear_coefficient_m2_n: "1e-15", worn_clearance_mm: "", sectors: 72 };
   const drawing = h("div", { class: "chart tall" });
   const said = h("p", { role: "status" });
   /** @type {Api.Get<"/v1/jobs/{id}/wear">} */
@@ -52,7 +56,8 @@ async function fill(body, job, signal) {
         "Archard's law: depth = coefficient × force × sliding distance / area. The coefficient depends on materials "
           + "and lubricant."),
     saveButtons(() => chart, () => `${job.id} wear`)),
-  h("p", { class: "actions" }, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
+  h("p", { class: "actions" }, joints.length > 1 ? choice("Joint", joints.map((name) => [name, name]), view.joint,
+    (name) => { view.joint = name; load().catch((error) => notify(error.message, "trouble")); }) : null, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
     field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
   await load();
   chart = await makeChart(drawing, () => optionOf(rows, drawing.clientWidth), "Worn depth around the bearing",

@@ -193,7 +193,7 @@ class JobPage {
       this.energy(), this.extra, h("p", { class: "card actions" }, add, this.overlay(),
         this.measurements(columns)),
       motionCard(this.job, offered, this.signal),
-      !described && joints.length > 0 ? wearCard(this.job, this.signal) : null];
+      wearCard(this.job, joints.filter(({ prefix }) => all.includes(`${prefix}ring_1_sliding_work_j`)), this.signal)];
     const side = [sceneCard(this.job, all, this.times, this.signal),
       ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs),
       runCard(this.job, this.schema, this.axes)];

@@ -136,10 +136,14 @@ class Job(Work):
 
     def wear(self, wear_coefficient_m2_n: Number = None, sectors: Whole = None,
              worn_clearance_mm: Number = None, from_s: Number = None,
-             to_s: Number = None) -> DataFrame:
-        """Wear on the bore: a row for each ring of the journal and sector of the bore."""
-        return self._table("wear", {"wear_coefficient_m2_n": wear_coefficient_m2_n, "sectors": sectors,
-                                    "worn_clearance_mm": worn_clearance_mm, "from": from_s, "to": to_s})
+             to_s: Number = None, joint: Text = None) -> DataFrame:
+        """Wear on the bore: a row for each ring of the journal and sector of the bore.
+
+        `joint` is one with a bore, of a described linkage; the first one if left out.
+        """
+        query = {"joint": joint, "wear_coefficient_m2_n": wear_coefficient_m2_n, "sectors": sectors,
+                 "worn_clearance_mm": worn_clearance_mm, "from": from_s, "to": to_s}
+        return self._table("wear", query)
 
     def _columns(self, name: str, query: Mapping[str, Any], frame: bool) -> Any:
         return self.client.columns(f"{self.path}/{name}", query, frame)

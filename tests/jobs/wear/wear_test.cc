@@ -54,7 +54,7 @@ double wear_cell(const jobs::ResultTable& table, std::size_t row, std::size_t co
 // goes round evenly.
 TEST(WearMap, HasTheDepthOfASteadilySlidingJournal) {
   const auto table =
-      jobs::make_wear_map(kParameters, sliding(25.0),
+      jobs::make_wear_map({"", kParameters}, sliding(25.0),
                           {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = {}});
   ASSERT_EQ(table.rows.size(), 40U);
   const double depth_um = 1e6 * kWearCoefficient * kWearPower * 10.0 / (2.0 * pi * 5e-3 * 10e-3);
@@ -73,7 +73,7 @@ TEST(WearMap, HasTheDepthOfASteadilySlidingJournal) {
 // The same where it stays: all of it in the sector that holds 1 rad, number 3 of 20.
 TEST(WearMap, GathersWhatStaysInItsSectorAndTellsItsLife) {
   const auto table =
-      jobs::make_wear_map(kParameters, sliding(0.0),
+      jobs::make_wear_map({"", kParameters}, sliding(0.0),
                           {.wear_coefficient = kWearCoefficient, .sectors = 20, .worn_clearance = 0.35});
   const double depth_um = 1e6 * kWearCoefficient * kWearPower * 10.0 / (2.0 * pi / 20.0 * 5e-3 * 10e-3);
   EXPECT_NEAR(wear_cell(table, 3, 4), depth_um, 1e-9 * depth_um);
@@ -95,9 +95,9 @@ TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
     run.columns.push_back(run.columns[ring == "1" ? 1 : 4]);
     for (double& work : run.columns.back()) work *= 2e-6;
   }
-  EXPECT_EQ(jobs::wear_channels(parameters).size(), 8U);
+  EXPECT_EQ(jobs::wear_channels({"", parameters}).size(), 8U);
   const auto table = jobs::make_wear_map(
-      parameters, run, {.wear_coefficient = kWearCoefficient, .sectors = 120, .worn_clearance = 0.35});
+      {"", parameters}, run, {.wear_coefficient = kWearCoefficient, .sectors = 120, .worn_clearance = 0.35});
   const double half = std::acos(0.28 / 0.282);  // in rad; sectors of 3 degrees
   double sum = 0.0;
   int worn = 0;
@@ -110,19 +110,19 @@ TEST(WearMap, OfAWornBoreIsSpreadOverTheArcThatIsPressed) {
   EXPECT_NEAR(wear_cell(table, 19, 6) * wear_cell(table, 19, 5), 70.0, 1e-6)
       << "0.1 mm less what is worn already";
   run.channels.pop_back();
-  EXPECT_THROW((void)jobs::make_wear_map(parameters, run, {}), jobs::WrongState);
+  EXPECT_THROW((void)jobs::make_wear_map({"", parameters}, run, {}), jobs::WrongState);
 }
 
 TEST(WearMap, IsOfAJointThatSlides) {
   json ideal = kParameters;
   ideal["clearance_mm"] = 0.0;
-  EXPECT_THROW((void)jobs::make_wear_map(ideal, sliding(1.0), {}), jobs::WrongState);
+  EXPECT_THROW((void)jobs::make_wear_map({"", ideal}, sliding(1.0), {}), jobs::WrongState);
   jobs::WearQuery query;
   query.worn_clearance = 0.25;
-  EXPECT_THROW((void)jobs::make_wear_map(kParameters, sliding(1.0), query), jobs::InvalidRequest);
+  EXPECT_THROW((void)jobs::make_wear_map({"", kParameters}, sliding(1.0), query), jobs::InvalidRequest);
   engine::Trajectory old = sliding(1.0);
   old.channels[1].key = "else";
-  EXPECT_THROW((void)jobs::make_wear_map(kParameters, old, {}), jobs::WrongState);
+  EXPECT_THROW((void)jobs::make_wear_map({"", kParameters}, old, {}), jobs::WrongState);
 }
 
 }  // namespace

@@ -110,6 +110,30 @@ TEST(Analyses, NameDrivesThatCasesVary) {
   EXPECT_EQ(bench.call("GET", path + "/results", "", {{"crank_drive_gt", "1"}}).status, 422);
 }
 
+TEST(Analyses, CompareRigidAndFlexibleBeams) {
+  Bench bench(jobs::engine_runner());
+  const std::string elements = "linkage.bodies.coupler.beam.elements", mass = "linkage.bodies.rocker.mass_kg";
+  json request{{"parameters", jobs_tests::example("four_bar")},
+               {"sweep", {{elements, {1, 4}}, {mass, {0.4, 0.5}}}}};
+  const std::string path = "/v1/sweeps/" + bench.run(request.dump());
+  const json rows = rows_of(bench, path + "/flexibility");
+  ASSERT_EQ(rows.size(), 2U);
+  for (const json& row : rows) {
+    EXPECT_EQ(row.at("along"), mass);
+    EXPECT_FALSE(row.contains(elements));
+    EXPECT_EQ(row.at("rigid_count"), 1);
+    EXPECT_EQ(row.at("flexible_count"), 1);
+    EXPECT_GT(row.at("coupler_loss_j").get<double>(), 0.0);
+    EXPECT_NE(row.at("metric"), "peak_crank_acceleration_rad_s2") << "which the drive prescribes";
+    EXPECT_NEAR(row.at("ratio").get<double>(), 1.0, 0.5);
+    EXPECT_NE(row.at("ratio"), 1.0);
+  }
+  request["sweep"][elements] = {1, 3, 4};
+  EXPECT_EQ(bench.call("GET", "/v1/sweeps/" + bench.run(request.dump()) + "/flexibility").status, 409);
+  request["sweep"][elements] = {3, 4};
+  EXPECT_EQ(bench.call("GET", "/v1/sweeps/" + bench.run(request.dump()) + "/flexibility").status, 409);
+}
+
 TEST(Analyses, LookAtMotionsOnceATurn) {
   Bench bench(long_run);
   const std::string path =
@@ -326,7 +350,7 @@ TEST(Report, BeginsWithTheLargestOfManyCombinations) {
     EXPECT_NE(page.find(line), std::string::npos) << line;
   EXPECT_NE(page.find("12 of 24 combinations are drawn"), std::string::npos);
   for (const char* const wanted : {"<main>", "0.05 to 0.6 mm, 12 values", "rigid, flexible",
-                                   "whether the flexible coupler helps is not known"})
+                                   "whether the flexible link helps is not known"})
     EXPECT_NE(page.find(wanted), std::string::npos) << wanted;
   EXPECT_EQ(page.find("Appendix"), std::string::npos);
 }
@@ -412,7 +436,7 @@ TEST(Analyses, SayWhichOnlyRpsupHas) {
       {sweep + "/bifurcation", "say which channels to take"},
       {job + "/poincare", "say which channels to take"},
       {sweep + "/lyapunov", "has no joint with clearance"},
-      {job + "/wear", "only jobs of the RPSUP linkage have"}};
+      {job + "/wear", "no joint of this job has a journal that slides"}};
   for (const auto& [path, why] : refused) {
     const auto response = bench.call("GET", path);
     EXPECT_EQ(response.status, 409) << path;
@@ -465,7 +489,7 @@ TEST(Analyses, TakeSectionsAndExponentsOfDescribedLinkages) {
 TEST(Analyses, AgreeForRpsupAndItsDescription) {
   const json described = jobs_tests::example("rpsup").at("linkage");
   Bench bench(jobs::engine_runner());
-  std::vector<json> exponents, sections;
+  std::vector<json> exponents, sections, wear;
   for (const bool is_described : {false, true}) {
     json parameters{{"duration_s", 1.5}, {"run_up_s", 0.3}};
     if (is_described) parameters["linkage"] = described;
@@ -474,8 +498,11 @@ TEST(Analyses, AgreeForRpsupAndItsDescription) {
     const std::string sweep = "/v1/sweeps/" + bench.run(request.dump());
     exponents.push_back(rows_of(bench, sweep + "/lyapunov").at(0));
     const json rows = json::parse(bench.call("GET", sweep + "/results").body);
-    sections.push_back(
-        rows_of(bench, "/v1/jobs/" + rows.at(0).at("job_id").get<std::string>() + "/poincare").at("columns"));
+    const std::string job = "/v1/jobs/" + rows.at(0).at("job_id").get<std::string>();
+    sections.push_back(rows_of(bench, job + "/poincare").at("columns"));
+    wear.push_back(rows_of(bench, job + "/wear", {{"sectors", "12"}, {"worn_clearance_mm", "0.3"}}));
+    const auto of_other = bench.call("GET", job + "/wear", "", {{"joint", "slider"}});
+    EXPECT_EQ(json::parse(of_other.body).at("errors").at(0).at("pointer"), "/joint");
   }
   EXPECT_EQ(exponents[0].at("pairs"), 1);
   EXPECT_NEAR(exponents[0].at("exponent_1_s").get<double>(),
@@ -486,6 +513,34 @@ TEST(Analyses, AgreeForRpsupAndItsDescription) {
     for (const char* const channel : {"journal_x_mm", "journal_y_mm"})
       EXPECT_NEAR(sections[0].at(channel).at(k).get<double>(),
                   sections[1].at(std::string("bearing_") + channel).at(k).get<double>(), 1e-6);
+  ASSERT_EQ(wear[0].size(), 36U);
+  ASSERT_EQ(wear[1].size(), 36U);
+  double deepest = 0.0;
+  for (const json& row : wear[0]) deepest = std::max(deepest, row.at("depth_um").get<double>());
+  EXPECT_GT(deepest, 0.0);
+  for (std::size_t k = 0; k < wear[0].size(); ++k)
+    EXPECT_NEAR(wear[0].at(k).at("depth_um").get<double>(), wear[1].at(k).at("depth_um").get<double>(),
+                1e-3 * deepest);
+}
+
+// Each joint has its own bearing; a ball in a socket and a block in a slot have no bore.
+TEST(Analyses, MapTheWearOfEachJointWithABore) {
+  Bench bench(jobs::engine_runner());
+  const auto run_of = [&](const char* linkage) {
+    json parameters = jobs_tests::example(linkage);
+    parameters["duration_s"] = 0.15;
+    const std::string sweep = "/v1/sweeps/" + bench.run(json{{"parameters", parameters}}.dump());
+    const json rows = json::parse(bench.call("GET", sweep + "/results").body);
+    return "/v1/jobs/" + rows.at(0).at("job_id").get<std::string>() + "/wear";
+  };
+  const std::string crank = run_of("slider_crank");
+  const json first = rows_of(bench, crank, {{"sectors", "4"}});
+  ASSERT_EQ(first.size(), 4U) << "one ring";
+  EXPECT_EQ(first, rows_of(bench, crank, {{"joint", "crank_pin"}, {"sectors", "4"}}));
+  EXPECT_NE(first, rows_of(bench, crank, {{"joint", "slider_pin"}, {"sectors", "4"}}));
+  EXPECT_EQ(bench.call("GET", crank, "", {{"worn_clearance_mm", "0.1"}, {"joint", "crank_pin"}}).status, 422);
+  EXPECT_EQ(bench.call("GET", crank, "", {{"joint", "guide"}}).status, 422);
+  EXPECT_EQ(bench.call("GET", run_of("loose_socket")).status, 409);
 }
 
 TEST(Analyses, AreOfWhatIsThere) {
