@@ -14,7 +14,9 @@
 #include "engine/integrate/odeint_steppers.h"
 #include "engine/integrate/radau.h"
 #include "engine/model/rpsup.h"
+#include "engine/simulate_linkage.h"
 #include "engine/simulate_rpsup.h"
+#include "tests/engine/linkage_cases.h"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -109,12 +111,13 @@ enum class FailFrom { kBeginning, kFirstStep };
 
 /// Makes each allocation of a run fail once. Memory that is freed twice ends the program.
 /// @returns how many runs ended for want of memory
-long fail_each_allocation(const RpsupParameters& parameters, const RunOptions& options, FailFrom from) {
+/// @param simulate  makes the run
+long fail_each_allocation(const std::function<void(const StopQuery&)>& simulate, FailFrom from) {
   long start = 0, first_step = 0;
   const auto run = [&] {
     start = allocations;
     first_step = 0;
-    (void)simulate_rpsup(parameters, options, [&](double) {
+    simulate([&](double) {
       if (first_step == 0) first_step = allocations - start;
       return false;
     });
@@ -135,6 +138,10 @@ long fail_each_allocation(const RpsupParameters& parameters, const RunOptions& o
   return ended;
 }
 
+long fail_each_allocation(const RpsupParameters& parameters, const RunOptions& options, FailFrom from) {
+  return fail_each_allocation([&](const StopQuery& stop) { (void)simulate_rpsup(parameters, options, stop); }, from);
+}
+
 RpsupParameters with(Coupler coupler, ContactForm contact, double c_r, DriveEnforcement drive) {
   RpsupParameters p;
   p.coupler = coupler;
@@ -153,6 +160,16 @@ RpsupParameters with_parts(int rigid_elements) {
 
 TEST(Run, EndsCleanlyWhereverMemoryRunsOut) {
   EXPECT_GT(fail_each_allocation({}, {.duration = 0.005, .output_rate = 100.0}, FailFrom::kBeginning), 500);
+}
+
+TEST(Run, OfALinkageEndsCleanlyWhereverMemoryRunsOut) {
+  Linkage linkage = make_loose_loops(*build_rpsup({}).mechanism.cut_joints[0].clearance);
+  linkage.springs = {{.name = "stay", .from = kGroundName, .to = linkage.bodies[0].name, .at = {0.3, 0.2, 0.1}, .stiffness = 10.0}};
+  linkage.loads = {{.name = "thrust", .body = linkage.bodies[0].name, .force = {0.0, 0.1, 0.0}, .law = Constant{1.0}}};
+  linkage.accelerometers = {{.name = "sensor", .body = linkage.bodies[0].name}};
+  const RunOptions options{.duration = 1e-3, .output_rate = 1000.0};
+  EXPECT_GT(fail_each_allocation([&](const StopQuery& stop) { (void)simulate_linkage(linkage, options, 0.0, stop); }, FailFrom::kBeginning),
+            500);
 }
 
 TEST(Run, EndsCleanlyWhereTheCheckOfStabilityFindsNoMemory) {
