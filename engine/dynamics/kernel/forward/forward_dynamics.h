@@ -173,7 +173,7 @@ class ForwardDynamics {
       if (model_.rows > 0 && !solve_multipliers(drives)) return false;
     bodies.solve(axes.data(), tau_.data(), work_, qdd.data(), slender());
     Topology::for_each_auxiliary(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-      qdd[joint.first] = tau_[joint.first] / joint.data().I[0];  // the same about any axis
+      qdd[joint.first] = tau_[joint.first] / joint.data().I[4 * joint.axis];  // about a principal axis
     });
     return true;
   }
