@@ -508,7 +508,7 @@ test("forces in the joints of a described linkage are arrows, too", async () => 
   const depth = page.getByText(/^Maximum depth: /);
   await depth.waitFor();
   const before = await depth.textContent();
-  await page.getByLabel("Joint", { exact: true }).selectOption("slider_pin");
+  await page.getByRole("combobox", { name: /^Joint/ }).selectOption("slider_pin");
   await page.waitForFunction((text) => [...document.querySelectorAll("p[role=status]")]
     .some(({ textContent }) => textContent.startsWith("Maximum depth: ") && textContent !== text), before);
   await picture(page, "described_forces");
