@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/model/applied_force.h"
 #include "tests/engine/linkage_cases.h"
 #include "tests/engine/linkage_run.h"
 
@@ -206,6 +207,18 @@ TEST(Actuators, TheIntegralTakesAwayTheErrorOfALoad) {
   const LinkageRun with(make_flywheel({.name = "q", .actuator = controller, .load = load}), accurate(3.0));
   EXPECT_NEAR(with.last("q_rad_s"), 10.0, 1e-6);
   EXPECT_LT(with.metric("energy_residual"), 1e-8);
+}
+
+// A bristle that is not bent yet follows the surfaces, r qd.
+TEST(JointFriction, SlidesAtTheRadiusOfThePin) {
+  JointFriction friction;
+  friction.normal_force = 50.0;
+  friction.radius = 0.02;
+  const Actuation actuation{.coordinate = 0, .element = friction};
+  std::vector<AppliedForceValue> values(list_applied_forces(actuation).size());
+  ASSERT_EQ(values.size(), 2U);
+  calc_applied_forces(actuation, 0.0, {.v = 3.0}, values.data());
+  EXPECT_NEAR(values[1].force, friction.law.sigma_0 * 0.02 * 3.0, 1e-12 * friction.law.sigma_0);
 }
 
 // At its limit the controller is a constant torque. With back-calculation it does not overshoot by what the integral has gathered meanwhile.

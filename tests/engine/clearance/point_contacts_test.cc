@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/clearance/point_contacts_law.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,26 @@ TEST(BallInSocket, KeepsItsBristleParallelToItself) {
     EXPECT_NEAR(dot(change, point.s), 0.0, 1e-6 * scale);
     EXPECT_GT(std::abs(rates[0]) + std::abs(rates[1]), 0.01 * scale) << "the tangents turn about the normal";
   }
+}
+
+TEST(BlockInSlot, HasAClearanceOfItsOwnAlongItsHeight) {
+  ClearanceParameters joint;
+  joint.geometry = ContactGeometry::kBlockInSlot;
+  joint.block_x = 0.01;
+  joint.block_y = 0.02;
+  joint.c_r = 1e-3;
+  joint.c_y = 3e-3;
+  const auto touching = [&](double x, double y) {
+    JournalMotion journal;
+    journal.p_bj = {x, y, 0.0};
+    std::vector<Penetration> contacts;
+    PointContacts(joint).add_penetrations(journal, contacts);
+    return std::ranges::count_if(contacts, [](const Penetration& contact) { return contact.delta > 0.0; });
+  };
+  EXPECT_EQ(touching(0.0, 2.9e-3), 0);
+  EXPECT_EQ(touching(0.0, 3.1e-3), 4);
+  EXPECT_EQ(touching(0.9e-3, 0.0), 0);
+  EXPECT_EQ(touching(-1.1e-3, 0.0), 4);
 }
 
 }  // namespace
