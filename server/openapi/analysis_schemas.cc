@@ -14,7 +14,10 @@ const Json kNumberOrNull{{"type", {"number", "null"}}};
 /// Rows that have what is swept beside these.
 Json rows_of(Json properties) {
   add_parameters_of_row(properties);
-  return list_of(options_of(std::move(properties)));
+  Json row = options_of(std::move(properties));
+  row["patternProperties"][R"(^(linkage|crank_drive|rod_drive)\.)"] =
+      described(kNumberOrNull, "a number inside a description, by its path");
+  return list_of(std::move(row));
 }
 
 Json make_sensitivity() {

@@ -113,8 +113,8 @@ struct DynamicTopology {
   }
 };
 
-/// Number of joints at the end that turn about a point of the ground and carry nothing: what actuators add, or
-/// flywheels.
+/// Number of joints at the end that turn about a point of the ground and carry nothing: what actuators add,
+/// or flywheels.
 template <std::size_t n>
 [[nodiscard]] consteval std::size_t count_auxiliaries(const std::array<JointTraits, n>& joints) {
   std::size_t count = 0;
