@@ -35,7 +35,7 @@ class LinkageQuantities {
   [[nodiscard]] const std::vector<Channel>& channels() const { return channels_; }
   [[nodiscard]] const Measured& measured() const { return measured_; }
   [[nodiscard]] Preparation prepare();
-  /// Of the joints with a bore: channels and metrics read it, a run has to move it on.
+  /// Sliding work in each joint with a bore: channels and metrics read it, a run moves it on.
   [[nodiscard]] std::span<SlidingWork> sliding_work() { return sliding_work_; }
   /// All channels, those of the poses with them.
   [[nodiscard]] std::vector<QuantityInfo> channel_table() const;

@@ -22,7 +22,7 @@ using nlohmann::json;
 constexpr double kSame = 1e-3;  // how right peaks are: a ratio nearer to 1 says that it makes no difference
 constexpr const char* kLosses[] = {"friction_work_j", "impact_loss_j", "structural_loss_j"};
 
-/// What makes a link rigid or flexible.
+/// Axis of a sweep that makes a link rigid or flexible.
 struct LinkAxis {
   std::string path;
   std::size_t column;
