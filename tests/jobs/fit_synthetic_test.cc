@@ -210,37 +210,41 @@ TEST(SyntheticFit, HeavyFindsTheTruth) {
     if (tried.has_truth_in_intervals()) ++inside;
   }
   // Seventeen of twenty, and so two of three: a search of so rugged a landscape misses some by chance.
-  EXPECT_GE(found, 17 * sets / 20) << found << " of " << sets;
-  EXPECT_GE(inside, 17 * sets / 20) << inside << " of " << sets << " with all true values in their intervals";
+  const std::size_t least = std::max<std::size_t>(1, 17 * sets / 20);
+  EXPECT_GE(found, least) << found << " of " << sets;
+  EXPECT_GE(inside, least) << inside << " of " << sets << " with all true values in their intervals";
 }
 
-TEST(SyntheticFit, HeavyIsHonestWhereTheCouplerBends) {
+/// Ten sets at most; one alone gets a smaller budget.
+std::vector<Tried> try_few_sets(Rig rig) {
   const std::size_t sets = std::min<std::size_t>(number_of_sets(1), 10);
-  ASSERT_GT(sets, 0U);
-  Rig rig = kFlexible;
   if (sets == 1) rig.budget = 300;
-  std::size_t inside = 0;
-  for (std::size_t set = 1; set <= sets; ++set)
-    if (try_set(rig, set).has_truth_in_intervals()) ++inside;
-  EXPECT_GE(inside, 8 * sets / 10) << inside << " of " << sets << " with all true values in their intervals";
+  std::vector<Tried> tried;
+  for (std::size_t set = 1; set <= sets; ++set) tried.push_back(try_set(rig, set));
+  return tried;
+}
+
+/// Nominally 95 % of the intervals of each parameter have its true value. One set alone says nothing of that.
+void expect_honest_intervals(const std::vector<Tried>& tried) {
+  const auto inside =
+      static_cast<std::size_t>(std::ranges::count_if(tried, &Tried::has_truth_in_intervals));
+  ASSERT_FALSE(tried.empty());
+  EXPECT_GE(inside, std::max<std::size_t>(1, 8 * tried.size() / 10))
+      << inside << " of " << tried.size() << " with all true values in their intervals";
 }
 
 TEST(SyntheticFit, HeavyIsHonestWhereRunsDiverge) {
-  const std::size_t sets = std::min<std::size_t>(number_of_sets(1), 10);
-  ASSERT_GT(sets, 0U);
-  Rig rig = kDiverging;
-  if (sets == 1) rig.budget = 300;
-  std::size_t inside = 0;
-  for (std::size_t set = 1; set <= sets; ++set) {
-    const Tried tried = try_set(rig, set);
-    EXPECT_EQ(tried.fit.at("basis"), "features");
-    for (std::size_t k = 0; k < tried.truth.size(); ++k)
-      EXPECT_FALSE(tried.parameter(k).at("range").is_null()) << rig.over[k].path;
-    if (tried.has_truth_in_intervals()) ++inside;
+  const std::vector<Tried> tried = try_few_sets(kDiverging);
+  expect_honest_intervals(tried);
+  for (const Tried& one : tried) {
+    EXPECT_EQ(one.fit.at("basis"), "features");
+    for (const json& parameter : one.fit.at("parameters"))
+      EXPECT_FALSE(parameter.at("range").is_null()) << parameter;
   }
-  // One set alone says nothing of coverage.
-  EXPECT_GE(inside, 8 * sets / 10) << inside << " of " << sets << " with all true values in their intervals";
 }
+
+/// Not of every day: a coupler that bends takes ten times as long.
+TEST(SyntheticFit, HeavyIsHonestWhereTheCouplerBends) { expect_honest_intervals(try_few_sets(kFlexible)); }
 
 }  // namespace
 }  // namespace jobs_tests
