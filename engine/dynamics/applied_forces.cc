@@ -57,7 +57,8 @@ void AppliedForces::read_out(const Eigen::VectorXd& y, const StateLayout& layout
     for (std::size_t i = groups_[k].first; i < groups_[k].end; ++i) {
       const auto index = static_cast<Eigen::Index>(i);
       at.applied_force[index] = values_[i].force;
-      at.applied_work[index] = y[layout.work(layout.applied_in_works(static_cast<int>(i)))];
+      if (forces_[i].work < 0) continue;
+      at.applied_work[index] = y[layout.work(layout.applied_in_works(forces_[i].work))];
       if (forces_[i].power == PowerKind::kLoss)
         at.energy.structural_loss -= at.applied_work[index];
       else if (forces_[i].power == PowerKind::kFriction)
@@ -67,10 +68,11 @@ void AppliedForces::read_out(const Eigen::VectorXd& y, const StateLayout& layout
     }
   }
   const auto behind = static_cast<Eigen::Index>(forces_.size());
+  const int first_load = layout.applied - static_cast<int>(body_loads_.size());
   for (std::size_t k = 0; k < body_loads_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     at.applied_force[behind + i] = body_loads_[k].value;
-    at.applied_work[behind + i] = y[layout.work(layout.applied_in_works(static_cast<int>(behind + i)))];
+    at.applied_work[behind + i] = y[layout.work(layout.applied_in_works(first_load + static_cast<int>(k)))];
     at.energy.drive_work[layout.drives + static_cast<Eigen::Index>(groups_.size()) + i] =
         at.applied_work[behind + i];
   }

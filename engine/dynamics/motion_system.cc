@@ -14,7 +14,7 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
       model_(mechanism),
       instruction_set_(instruction_set.empty() ? instruction_sets().back() : instruction_set),
       layout_{static_cast<int>(model_.free.size()), 0, static_cast<int>(mechanism.drives.size()),
-              static_cast<int>(model_.applied_forces.size() + model_.body_loads.size())},
+              model_.force_works + static_cast<int>(model_.body_loads.size())},
       applied_forces_(mechanism_, model_),
       reaction_friction_(mechanism_),
       friction_at_(make_evaluation()) {
@@ -74,7 +74,8 @@ Evaluation MotionSystem::make_evaluation() const {
   at.qd.setZero(n);
   at.qdd.setZero(n);
   at.drive_force.setZero(static_cast<Eigen::Index>(mechanism_.drives.size()));
-  at.applied_force.setZero(layout_.applied);
+  at.applied_force.setZero(
+      static_cast<Eigen::Index>(model_.applied_forces.size() + model_.body_loads.size()));
   at.applied_work = at.applied_force;
   at.friction_reaction.setZero(static_cast<Eigen::Index>(mechanism_.actuations.size()));
   at.energy.drive_work.setZero(static_cast<Eigen::Index>(

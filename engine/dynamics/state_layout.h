@@ -8,7 +8,8 @@ namespace engine {
 /// Layout of the state vector y of MotionSystem:
 ///
 ///     y = (q, v, bristles, works)
-///     works = (work of each drive, applied force and body load, impact loss, friction loss, structural loss)
+///     works = (work of each drive, of each applied force that has one, and of each body load,
+///              impact loss, friction loss, structural loss)
 ///
 /// with q the free coordinates and v their rates. Members give the index of an entry of y. Functions are
 /// inlined everywhere: instruction sets share none of them.
@@ -16,7 +17,7 @@ struct StateLayout {
   int free = 0;      ///< free coordinates
   int bristles = 0;  ///< of all joints with clearance
   int drives = 0;
-  int applied = 0;   ///< applied forces and, behind them, body loads
+  int applied = 0;   ///< works of applied forces and, behind them, of body loads
 
   [[nodiscard]] RPSUP_INLINE constexpr int q(int i = 0) const { return i; }
   [[nodiscard]] RPSUP_INLINE constexpr int v(int i = 0) const { return free + i; }

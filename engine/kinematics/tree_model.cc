@@ -193,6 +193,7 @@ TreeModel::TreeModel(const Mechanism& mechanism)
   for (const BodyLoad& load : mechanism.body_loads)
     body_loads.push_back({finder.joint_of(load.frame), make_placement({.p = load.at}), array_of(load.force),
                           array_of(load.moment), load.follows_body});
+  for (const AppliedForce& force : applied_forces) force_works += force.work >= 0;
   first_coupling_row = rows;
   rows += static_cast<int>(couplings.size());
   first_drive_row = rows;

@@ -90,6 +90,7 @@ struct TreeModel {
   std::vector<TreeSpring> springs;
   std::vector<AppliedForce> applied_forces;
   std::vector<TreeBodyLoad> body_loads;
+  int force_works = 0;                ///< applied forces that have a work
   std::vector<int> free;              ///< free coordinates
   std::vector<int> drives;            ///< coordinate of each drive
   bool drive_rows = false;            ///< drives are constraint rows

@@ -92,6 +92,8 @@ void calc_forces(const Controller& controller, double t, const ElementState& sta
 AppliedForceValue calc_motor_loss(const DcMotor& motor, const ElementState& state) {
   const double n = motor.gear_ratio, k = motor.torque_constant;
   const double w = n * state.v;
+  if (motor.dry_friction == 0.0 && motor.gear_efficiency == 1.0)
+    return {.force = -n * motor.viscous_friction * w, .by_v = {-n * n * motor.viscous_friction, 0.0}};
   const double reversal = std::tanh(w / motor.reversal_velocity);
   const double reversal_by_w = (1.0 - reversal * reversal) / motor.reversal_velocity;
   const double torque = k * state.current - motor.viscous_friction * w - motor.dry_friction * reversal;
@@ -157,11 +159,11 @@ void list_forces(const Controller& controller, const Actuation& of, std::vector<
 
 void list_forces(const DcMotor& motor, const Actuation& of, std::vector<AppliedForce>& forces) {
   forces.push_back(
-      {.coordinate = of.coordinate, .inputs = {of.winding, kGround}, .power = PowerKind::kExchange});
+      {.coordinate = of.coordinate, .inputs = {of.winding, kGround}, .power = PowerKind::kNone});
   forces.push_back(
       {.coordinate = of.coordinate, .inputs = {of.coordinate, of.winding}, .power = PowerKind::kLoss});
   forces.push_back(
-      {.coordinate = of.winding, .inputs = {of.coordinate, kGround}, .power = PowerKind::kExchange});
+      {.coordinate = of.winding, .inputs = {of.coordinate, kGround}, .power = PowerKind::kNone});
   if (const auto* const controller = std::get_if<Controller>(&motor.voltage))
     list_forces(*controller, of.winding, of, forces);
   else
@@ -214,6 +216,9 @@ std::vector<AppliedForce> list_applied_forces(const Mechanism& mechanism) {
     const std::vector<AppliedForce> of_one = list_applied_forces(actuation);
     forces.insert(forces.end(), of_one.begin(), of_one.end());
   }
+  int works = 0;
+  for (AppliedForce& force : forces)
+    if (force.power != PowerKind::kNone) force.work = works++;
   return forces;
 }
 

@@ -16,10 +16,9 @@ inline constexpr int kForceInputs = 2;
 /// The part that the power of an applied force has in the energy account.
 enum class PowerKind {
   kSource,    ///< work of a drive
-  kExchange,  ///< one of a pair whose powers add up to 0: torque and back-EMF of a motor
   kLoss,      ///< of an actuator: counted with the dampers
   kFriction,  ///< dry friction in a joint
-  kNone,      ///< no power: the rate of a memory
+  kNone,      ///< the rate of a memory; also a motor's torque and back-EMF, whose powers add up to 0
 };
 
 /// A generalised force on a coordinate.
@@ -27,6 +26,7 @@ struct AppliedForce {
   FrameIndex coordinate = 0;
   std::array<FrameIndex, kForceInputs> inputs{kGround, kGround};  ///< coordinates; kGround: none
   PowerKind power = PowerKind::kSource;
+  int work = -1;  ///< index among the works of all applied forces; -1: kNone has none
 };
 
 /// An applied force at one instant, with its partial derivatives.
@@ -55,7 +55,7 @@ enum MotorForce { kElectromagnetic, kMotorLoss, kBackEmf, kSupply };
 
 /// The applied forces of a force element; those of a motor in the order of MotorForce.
 [[nodiscard]] std::vector<AppliedForce> list_applied_forces(const Actuation& actuation);
-/// Those of all force elements in their order.
+/// Those of all force elements in their order, their works counted.
 [[nodiscard]] std::vector<AppliedForce> list_applied_forces(const Mechanism& mechanism);
 
 /// Their values. Allocates nothing.

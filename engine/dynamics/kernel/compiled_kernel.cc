@@ -28,20 +28,19 @@ DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<Clearan
 
 }  // namespace
 
-/// Nine topologies are static, all of the paper's linkage. In six the drives are prescribed. The yoke turns
+/// Seven topologies are static, all of the paper's linkage. In six the drives are prescribed. The yoke turns
 /// about the guide or across it. For each yoke there are three: with clearance and a rigid coupler, with
 /// clearance and a coupler of four elements, and that coupler without clearance. (Drives determine the motion
 /// of rigid links without clearance: see LoopClosure.) The topology without clearance is rolled: its
 /// constraint solver passes addresses of the workspaces to functions that are not inlined, so that nothing
-/// stays in registers. In three, of the rigid linkage with clearance, an actuator moves the crank.
+/// stays in registers. In the seventh, of the rigid linkage with clearance, an actuator moves the crank.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
                                      std::size_t bristles, AppliedValues applied) {
   return try_topologies<
       StaticTopology<kRigidRpsup, true>, StaticTopology<kFlexibleRpsup, true>,
       StaticTopology<kFlexibleRpsup, false>::Rolled, StaticTopology<kRigidRpsupAcross, true>,
       StaticTopology<kFlexibleRpsupAcross, true>, StaticTopology<kFlexibleRpsupAcross, false>::Rolled,
-      StaticTopology<kForcedRpsup, true>, StaticTopology<kControlledRpsup, true>,
-      StaticTopology<kMotorisedRpsup, true>, DynamicTopology>(model, joints, bristles, applied);
+      StaticTopology<kActuatedRpsup, true>, DynamicTopology>(model, joints, bristles, applied);
 }
 
 }  // namespace RPSUP_INSTRUCTION_SET

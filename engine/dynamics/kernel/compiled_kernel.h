@@ -7,48 +7,17 @@
 #include "engine/dynamics/kernel/forward/forward_dynamics.h"
 #include "engine/dynamics/kernel/newton/newton_matrix.h"
 #include "engine/dynamics/kernel/newton/recursive_newton.h"
+#include "engine/dynamics/kernel/read_out.h"
 #include "engine/dynamics/kernel/tangent/bristle_jacobian.h"
 #include "engine/dynamics/kernel/tangent/linearised_dynamics.h"
 #include "engine/dynamics/kernel/tangent/operating_point.h"
 #include "engine/dynamics/kernel/tangent/seed_schedule.h"
 #include "engine/dynamics/kernel/tangent/state_jacobian.h"
 #include "engine/dynamics/state_layout.h"
-#include "engine/kinematics/plain_frame.h"
 #include "engine/math/complex.h"
 
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
-
-/// Reads out the frame of a joint's k-th coordinate. Numbers are copied one by one, here and below: functions
-/// of Eigen would be shared between instruction sets by the linker.
-inline void read_out_frame(const Frame<double, double>& from, const JointAxes& axes, int k,
-                           FrameMotion& to) {
-  copy(axes.axis[k], to.axis.data());
-  copy(k == 0 ? axes.r : Vec3<double>{}, to.p_parent.data());
-  copy(from.R, to.R.data());
-  copy(from.p, to.p.data());
-  copy(from.w, to.w.data());
-  copy(from.v, to.v.data());
-}
-
-inline void read_out_joint(const CutJointMotion<double, double>& from, JointState& to) {
-  copy(from.journal.R, to.journal.R_bj.data());
-  copy(from.journal.p, to.journal.p_bj.data());
-  copy(from.journal.v, to.journal.v.data());
-  copy(from.journal.w, to.journal.w.data());
-  copy(from.reaction, to.reaction_W.data());
-  copy(from.moment, to.moment_W.data());
-  copy(from.load.force, to.load.force.data());
-  copy(from.load.moment, to.load.moment.data());
-  to.load.radial_normal_sum = from.load.radial_normal_sum;
-  to.load.face_normal_sum = from.load.face_normal_sum;
-  to.load.friction_sum = from.load.friction_sum;
-  to.load.max_penetration = from.load.max_penetration;
-  to.load.elastic_energy = from.load.elastic_energy;
-  to.load.impact_power = from.load.impact_power;
-  to.load.friction_power = from.load.friction_power;
-  to.load.face_touches = from.load.face_touches;
-}
 
 /// The dynamics kernel of a topology: state vectors in and out, around ForwardDynamics, LinearisedDynamics
 /// and the Newton solvers.
@@ -62,7 +31,7 @@ class CompiledKernel final : public DynamicsKernel {
       : model_(model),
         layout_{static_cast<int>(model.free.size()), static_cast<int>(bristles),
                 static_cast<int>(model.drives.size()),
-                static_cast<int>(model.applied_forces.size() + model.body_loads.size())},
+                model.force_works + static_cast<int>(model.body_loads.size())},
         joints_(joints), applied_(applied), bristle_rates_(bristles),
         kept_(model, joints, applied),
         point_(model, joints, bristles, kept_),
@@ -78,7 +47,7 @@ class CompiledKernel final : public DynamicsKernel {
   EvaluationStatus evaluate(const double* y, const DrivenMotion* drives, bool drives_moved,
                             double* dydt) override {
     if constexpr (Topology::is_static) {
-      ForwardDynamics<typename Topology::Bodies> at(model_, joints_, applied_);
+      ForwardDynamics<Topology> at(model_, joints_, applied_);
       at.bristle_rates = dydt + layout_.bristle();
       return evaluate(y, drives, at, dydt);
     } else {
@@ -177,11 +146,14 @@ class CompiledKernel final : public DynamicsKernel {
       });
     }
     if constexpr (Topology::has_applied_forces)
-      for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
-        works[layout_.drives + k] = calc_applied_power(model_.applied_forces[k], applied_.forces[k], at.qd);
+      for (std::size_t k = 0; k < model_.applied_forces.size(); ++k) {
+        const AppliedForce& force = model_.applied_forces[k];
+        if (force.work >= 0)
+          works[layout_.drives + force.work] = applied_.forces[k].force * at.qd[force.coordinate];
+      }
     if constexpr (Topology::has_point_springs)
       for (std::size_t k = 0; k < at.body_loads.size(); ++k)
-        works[layout_.drives + model_.applied_forces.size() + k] = at.body_loads[k].power;
+        works[layout_.drives + model_.force_works + k] = at.body_loads[k].power;
     works[layout_.impact_in_works()] = at.losses.impact;
     works[layout_.friction_in_works()] = at.losses.friction;
     works[layout_.structural_in_works()] = at.losses.structural;
@@ -240,11 +212,13 @@ class CompiledKernel final : public DynamicsKernel {
       schedule_.output(row++) = kept_.qd[drive] * linearised_.drive_force[k] +
                                 kept_.drive_force[k] * schedule_.coordinate_seeds(chunk)[drive].qd;
     }
-    for (std::size_t k = 0; k < model_.applied_forces.size(); ++k)
+    for (std::size_t k = 0; k < model_.applied_forces.size(); ++k) {
+      const AppliedForce& force = model_.applied_forces[k];
+      if (force.work < 0) continue;
       schedule_.output(row++) =
-          calc_applied_power_tangent(model_.applied_forces[k], applied_.forces[k],
-                                     linearised_.applied_force[k], kept_.qd.data(),
-                                     schedule_.coordinate_seeds(chunk));
+          kept_.qd[force.coordinate] * linearised_.applied_force[k] +
+          applied_.forces[k].force * schedule_.coordinate_seeds(chunk)[force.coordinate].qd;
+    }
     for (const TangentPack& power : linearised_.body_load_power) schedule_.output(row++) = power;
     schedule_.output(row++) = linearised_.losses.impact;
     schedule_.output(row++) = linearised_.losses.friction;
@@ -284,14 +258,18 @@ class CompiledKernel final : public DynamicsKernel {
 
 template <typename Topology>
 void CompiledKernel<Topology>::read_out(Evaluation& at) const {
-  for (std::size_t i = 0; i < kept_.q.size(); ++i) {
+  for (int i = 0; i < model_.coordinates; ++i) {
     at.q.data()[i] = kept_.q[i];
     at.qd.data()[i] = kept_.qd[i];
     at.qdd.data()[i] = kept_.qdd[i];
   }
-  for (std::size_t i = 0; i < model_.joints.size(); ++i)
+  for (std::size_t i = 0; i < kept_.frames.size(); ++i)
     for (int k = 0; k < model_.joints[i].count(); ++k)
       read_out_frame(kept_.frames[i], kept_.axes[i], k, at.frames.data()[model_.joints[i].first + k]);
+  Topology::for_each_auxiliary(model_, [&](std::size_t, const auto& joint) {
+    read_out_auxiliary(joint, kept_.ground(), &kept_.q[joint.first], &kept_.qd[joint.first],
+                       at.frames.data()[joint.first]);
+  });
   for (std::size_t k = 0; k < model_.drives.size(); ++k) at.drive_force.data()[k] = kept_.drive_force[k];
   for (std::size_t k = 0; k < kept_.cuts.size(); ++k) read_out_joint(kept_.cuts[k], at.joints.data()[k]);
 }

@@ -66,11 +66,14 @@ RPSUP_INLINE void add_applied_forces(const TreeModel& model, const AppliedForceV
     tau[model.applied_forces[k].coordinate] += values[k].force;
 }
 
-/// Power of an applied force; 0 of one that has none. @param qd  one a coordinate
-template <typename Coordinates>
-[[nodiscard]] RPSUP_INLINE double calc_applied_power(const AppliedForce& of, const AppliedForceValue& value,
-                                                     const Coordinates& qd) {
-  return of.power == PowerKind::kNone ? 0.0 : value.force * qd[of.coordinate];
+/// Accelerations of the auxiliary joints, or their tangents. Their bodies turn about principal axes.
+/// @param tau, qdd  one a coordinate
+template <typename Topology, typename Coordinates>
+RPSUP_INLINE void calc_auxiliary_accelerations(const TreeModel& model, const Coordinates& tau,
+                                               Coordinates& qdd) {
+  Topology::for_each_auxiliary(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+    qdd[joint.first] = tau[joint.first] * (1.0 / joint.data().I[4 * joint.axis]);
+  });
 }
 
 /// Adds the powers of the joints' dampers. @param qd  one a coordinate

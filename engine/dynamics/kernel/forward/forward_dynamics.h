@@ -172,9 +172,7 @@ class ForwardDynamics {
     if constexpr (Topology::has_constraints)
       if (model_.rows > 0 && !solve_multipliers(drives)) return false;
     bodies.solve(axes.data(), tau_.data(), work_, qdd.data(), slender());
-    Topology::for_each_auxiliary(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
-      qdd[joint.first] = tau_[joint.first] / joint.data().I[4 * joint.axis];  // about a principal axis
-    });
+    calc_auxiliary_accelerations<Topology>(model_, tau_, qdd);
     return true;
   }
   [[nodiscard]] RPSUP_INLINE const SlenderBodyMotion* slender() const {

@@ -88,14 +88,17 @@ struct SizesOfMany {
   int pairs;
 };
 
-/// Calls f with the sizes of J, as compile-time constants for the paper's linkage with a rigid coupler and
-/// with one of four elements.
+/// Calls f with the sizes of J, as compile-time constants for the paper's linkage: with a rigid coupler, with
+/// one of four elements, and with a rigid coupler and an actuator of no, one or two auxiliary coordinates.
 template <typename Function>
 auto with_sizes(const StateJacobian& J, const Function& f) {
   const bool usual = J.stride == J.first_work + StateJacobian::kFewestWorks,
              few = J.pair_stride == StateJacobian::kBlock;
   if (usual && J.free == 5) return few ? f(SizesOfFew<5>()) : f(SizesOfMany<5>{J.pair_stride});
   if (usual && J.free == 14) return few ? f(SizesOfFew<14>()) : f(SizesOfMany<14>{J.pair_stride});
+  if (usual && few && J.free == 6) return f(SizesOfFew<6>());
+  if (usual && few && J.free == 7) return f(SizesOfFew<7>());
+  if (usual && few && J.free == 8) return f(SizesOfFew<8>());
   return f(AnySizes{J.free, J.first_work, J.stride, J.pair_stride});
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "engine/dynamics/kernel/forward/applied_loads.h"
 #include "engine/dynamics/kernel/forward/forward_dynamics.h"
 #include "engine/dynamics/kernel/tangent/contact_tangent.h"
 #include "engine/dynamics/kernel/tangent/frame_tangent.h"
@@ -24,9 +25,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// so that M is not differentiated. The steps of calc_tangents(): frames (K17), Newton-Euler forces (K18),
 /// loads (K19), (K20), joint forces (K21), joint springs, M^-1 by ArticulatedBodies, multipliers (K22). All
 /// tangents are corotational, each seen in the frame of its own body, Eq. (K16): where a joint rotates a
-/// subtree, no force in it changes. Sources: A. Jain, G. Rodriguez, Linearization of manipulator dynamics
-/// using spatial operators (1993); J. Carpentier, N. Mansard, Analytical derivatives of rigid body dynamics
-/// algorithms (2018).
+/// subtree, no force in it changes. Sources: [JR] and [CM] of the kernel's README.
 /// @tparam Topology  DynamicTopology or a StaticTopology
 template <typename Topology>
 class LinearisedDynamics {
@@ -236,6 +235,7 @@ class LinearisedDynamics {
 
   RPSUP_INLINE void solve() {
     dynamics_.bodies.solve_pack(dynamics_.axes.data(), tau_.data(), work_, qdd.data());
+    calc_auxiliary_accelerations<Topology>(model_, tau_, qdd);
   }
 
   RPSUP_INLINE void calc_multiplier_tangents(const TangentPack& time, const DrivenMotion* drives) {
@@ -266,7 +266,7 @@ class LinearisedDynamics {
   }
 
   RPSUP_INLINE void calc_loss_tangents() {
-    Topology::base_to_tip(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+    Topology::for_each_joint(model_, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (!joint.sprung) return;
       const int first = joint.first;
       for (int k = 0; k < joint.count(); ++k)

@@ -51,14 +51,6 @@ RPSUP_INLINE void add_applied_force_tangents(const TreeModel& model, const Appli
   }
 }
 
-/// Tangent of calc_applied_power(). @param force  tangent of the force
-RPSUP_INLINE TangentPack calc_applied_power_tangent(const AppliedForce& of, const AppliedForceValue& value,
-                                                    const TangentPack& force, const double* qd,
-                                                    const CoordinateTangent<TangentPack>* seeds) {
-  if (of.power == PowerKind::kNone) return {};
-  return qd[of.coordinate] * force + value.force * seeds[of.coordinate].qd;
-}
-
 /// Tangents of the right-hand sides of the couplings' rows. @param lambda  out, one a row
 RPSUP_INLINE void calc_coupling_tangents(const TreeModel& model, const CoordinateTangent<TangentPack>* seeds,
                                          TangentPack* lambda) {
@@ -89,7 +81,7 @@ RPSUP_INLINE void calc_drive_row_tangents(const TreeModel& model, const Coordina
 template <typename Topology>
 RPSUP_INLINE void add_joint_spring_tangents(const TreeModel& model,
                                             const CoordinateTangent<TangentPack>* seeds, TangentPack* tau) {
-  Topology::base_to_tip(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
+  Topology::for_each_joint(model, [&](std::size_t, const auto& joint) RPSUP_INLINE_LAMBDA {
     if (!joint.sprung) return;
     for (int k = 0; k < joint.count(); ++k) {
       const int i = joint.first + k;

@@ -54,19 +54,18 @@ consteval auto make_rpsup_traits() {
   return joints;
 }
 
-/// The rigid linkage whose crank an actuator moves.
-/// @tparam auxiliaries  coordinates of the actuator: charge of a motor's winding, integral of a controller
-template <std::size_t auxiliaries>
-consteval std::array<JointTraits, 5 + auxiliaries> make_actuated_rpsup_traits() {
+/// The rigid linkage whose crank an actuator moves, with the most coordinates that an actuator has: charge of
+/// a motor's winding, integral of a controller.
+consteval std::array<JointTraits, 7> make_actuated_rpsup_traits() {
   using Kind = JointTraits::Kind;
   using Inertia = JointTraits::Inertia;
-  std::array<JointTraits, 5 + auxiliaries> joints{};
+  std::array<JointTraits, 7> joints{};
   std::ranges::copy(list_rpsup_joints<1, 0>(), joints.begin());
   joints[0].driven = false;
   joints[0].drive = -1;
   joints[0].has_armature = true;
   joints[1].drive = 0;
-  for (std::size_t i = 5; i < joints.size(); ++i)
+  for (std::size_t i : {5, 6})
     joints[i] = {.kind = Kind::kRotation,
                  .axis = 2,
                  .shifted_along_x = true,
@@ -80,9 +79,7 @@ inline constexpr auto kRigidRpsup = make_rpsup_traits<1, 0>();
 inline constexpr auto kFlexibleRpsup = make_rpsup_traits<4, 0>();
 inline constexpr auto kRigidRpsupAcross = make_rpsup_traits<1, 1>();
 inline constexpr auto kFlexibleRpsupAcross = make_rpsup_traits<4, 1>();
-inline constexpr auto kForcedRpsup = make_actuated_rpsup_traits<0>();
-inline constexpr auto kControlledRpsup = make_actuated_rpsup_traits<1>();
-inline constexpr auto kMotorisedRpsup = make_actuated_rpsup_traits<2>();
+inline constexpr auto kActuatedRpsup = make_actuated_rpsup_traits();
 
 }  // namespace RPSUP_INSTRUCTION_SET
 }  // namespace engine

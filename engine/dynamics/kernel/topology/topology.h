@@ -76,7 +76,6 @@ struct DynamicTopology {
   using PerSlenderBody = FixedBuffer<T, 0>;  ///< slender bodies move like all others: see SlenderBodyMotion
 
   using Rolled = DynamicTopology;
-  using Bodies = DynamicTopology;
 
   [[nodiscard]] static bool fit(const TreeModel&) { return true; }
 
@@ -113,15 +112,6 @@ struct DynamicTopology {
   }
 };
 
-/// Number of joints at the end that turn about a point of the ground and carry nothing: what actuators add,
-/// or flywheels.
-template <std::size_t n>
-[[nodiscard]] consteval std::size_t count_auxiliaries(const std::array<JointTraits, n>& joints) {
-  std::size_t count = 0;
-  while (count < n && joints[n - 1 - count].parent < 0 && joints[n - 1 - count].rotates()) ++count;
-  return count;
-}
-
 /// Whether a joint has the traits of a static one. It may lack those whose numbers may be zero.
 [[nodiscard]] inline bool fits_traits(JointTraits given, const JointTraits& wanted) {
   given.has_armature |= wanted.has_armature;
@@ -129,21 +119,19 @@ template <std::size_t n>
   return given == wanted;
 }
 
-/// A topology of compile-time constants, with one cut joint: its journal is on the last body's joint, its
+/// A topology of compile-time constants, with one cut joint: its journal is on the last joint's body, its
 /// bearing on the third last one's, auxiliary joints not counted. Passes over the joints are unrolled, and
-/// their branches vanish.
+/// their branches vanish. They leave out the auxiliary joints, of which a tree may have fewer.
 /// @tparam joints     std::array of JointTraits
 /// @tparam clearance  whether the cut joint has clearance
 /// @tparam rolled     whether a series of slender bodies is visited in a loop: less code, but nothing of the
 /// series stays in registers
-/// @tparam bodies_only  whether passes over the tree leave auxiliary joints out: these have no part in the
-/// motion of the bodies but by the applied forces
-template <const auto& joints, bool clearance, bool rolled = false, bool bodies_only = false>
+template <const auto& joints, bool clearance, bool rolled = false>
 struct StaticTopology {
-  static constexpr std::size_t n = joints.size();
+  static constexpr std::size_t most_auxiliaries = count_auxiliaries(joints);
+  static constexpr std::size_t n = joints.size() - most_auxiliaries;
   static constexpr bool has_series = find_series(joints).end > 0;
   using Rolled = StaticTopology<joints, clearance, has_series>;
-  using Bodies = StaticTopology<joints, clearance, rolled, (count_auxiliaries(joints) > 0)>;
   static_assert(std::ranges::none_of(joints,
                                      [](const JointTraits& s) {
                                        return s.is_slender && (s.rotated || s.driven);
@@ -159,7 +147,7 @@ struct StaticTopology {
   template <typename T>
   using PerJoint = FixedBuffer<T, n>;
   template <typename T>
-  using PerCoordinate = FixedBuffer<T, n_q>;
+  using PerCoordinate = FixedBuffer<T, n_q + most_auxiliaries>;
   using SineBuffer =
       FixedBuffer<double, 0>;  ///< ForwardDynamics::calc_frames() has sines on the stack instead
   template <typename T>
@@ -170,10 +158,7 @@ struct StaticTopology {
   using PerPointSpring = FixedBuffer<T, 0>;
   template <typename T>
   using PerBodyLoad = FixedBuffer<T, 0>;
-  static constexpr std::size_t n_bodies = n - count_auxiliaries(joints);
-  static constexpr std::size_t n_visited = bodies_only ? n_bodies : n;
-  using CutJoint =
-      StaticCutJoint<static_cast<int>(n_bodies) - 3, static_cast<int>(n_bodies) - 1, clearance>;
+  using CutJoint = StaticCutJoint<static_cast<int>(n) - 3, static_cast<int>(n) - 1, clearance>;
   static constexpr int row_count = clearance ? 0 : CutJoint::rows.count();
   template <typename T>
   using PerRow = FixedBuffer<T, row_count>;
@@ -181,13 +166,14 @@ struct StaticTopology {
   using PerSlenderBody = FixedBuffer<T, n>;  ///< indexed by joint
 
   [[nodiscard]] static bool fit(const TreeModel& model) {
-    if (model.joints.size() != n || model.drives.size() != n_drives || !model.springs.empty() ||
+    if (model.joints.size() < n || model.joints.size() > n + most_auxiliaries ||
+        model.drives.size() != n_drives || !model.springs.empty() ||
         !model.couplings.empty() || (!has_applied_forces && !model.applied_forces.empty()) ||
         !model.body_loads.empty())
       return false;
     if (model.minimum_norm_multipliers) return false;  // FullRankDelassus cannot factor dependent rows
     if (model.cut_joints.size() != 1 || !CutJoint::fit(model.cut_joints[0])) return false;
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < model.joints.size(); ++i)
       if (!fits_traits(model.joints[i], joints[i])) return false;
     return true;
   }
@@ -198,11 +184,11 @@ struct StaticTopology {
     if constexpr (rolled)
       for (std::size_t i = series.first; i < series.end; ++i)
         visit(i, SlenderJoint{model.joints[i], i - series.first});
-    base_to_tip<series.end>(model, visit, std::make_index_sequence<n_visited - series.end>());
+    base_to_tip<series.end>(model, visit, std::make_index_sequence<n - series.end>());
   }
   template <typename Visit>
   RPSUP_INLINE static void tip_to_base(const TreeModel& model, const Visit& visit) {
-    tip_to_base<n_visited>(model, visit, std::make_index_sequence<n_visited - series.end>());
+    tip_to_base<n>(model, visit, std::make_index_sequence<n - series.end>());
     if constexpr (rolled)
       for (std::size_t i = series.end; i-- > series.first;)
         visit(i, SlenderJoint{model.joints[i], i - series.first});
@@ -214,10 +200,9 @@ struct StaticTopology {
     base_to_tip(model, visit);
     for_each_auxiliary(model, visit);
   }
-  /// The joints that the passes leave out.
   template <typename Visit>
   RPSUP_INLINE static void for_each_auxiliary(const TreeModel& model, const Visit& visit) {
-    base_to_tip<n_visited>(model, visit, std::make_index_sequence<n - n_visited>());
+    for_each_auxiliary(model, visit, std::make_index_sequence<most_auxiliaries>());
   }
   template <typename Visit>
   RPSUP_INLINE static void for_each_cut_joint(const TreeModel& model, const Visit& visit) {
@@ -260,6 +245,16 @@ struct StaticTopology {
                                          ? q[joint_angles(joints).coordinate[first + lane]]
                                          : 0.0)...};
     return block;
+  }
+  template <typename Visit, std::size_t... i>
+  RPSUP_INLINE static void for_each_auxiliary(const TreeModel& model, const Visit& visit,
+                                              std::index_sequence<i...>) {
+    (visit_if_present<n + i>(model, visit), ...);
+  }
+  template <std::size_t i, typename Visit>
+  RPSUP_INLINE static void visit_if_present(const TreeModel& model, const Visit& visit) {
+    if (i < model.joints.size())
+      visit(std::integral_constant<std::size_t, i>(), StaticJoint<joints, i>{model.joints[i]});
   }
   template <std::size_t from, typename Visit, std::size_t... i>
   RPSUP_INLINE static void base_to_tip(const TreeModel& model, const Visit& visit,
