@@ -62,8 +62,8 @@ def read_everything(service, ids, dice, count):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
-    parser.add_argument("--jobs", type=int, default=8 * JOBS_PER_SWEEP)
-    parser.add_argument("--gets", type=int, default=1000)
+    parser.add_argument("--jobs", type=int, default=16 * JOBS_PER_SWEEP)
+    parser.add_argument("--gets", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     store = temporary_folder() / "store.db"
