@@ -45,18 +45,19 @@ bool applies(std::string_view key, JointKind kind) {
   return true;
 }
 
+bool has_field(const LinkageFields& fields, const std::string& key) {
+  return std::ranges::find(fields, key, &LinkageField::key) != fields.end();
+}
+
 void check_keys(const json& clearance, const json& kind_word, JointKind kind, const std::string& pointer,
                 std::vector<Fault>& faults) {
   json known = clearance;
   for (const auto& [key, value] : clearance.items()) {
-    const auto has_key = [&](const LinkageFields& fields) {
-      return std::ranges::find(fields, key, &LinkageField::key) != fields.end();
-    };
     std::string detail;
     if (key == kWearKey) detail = kWearOfDescribed;
-    else if (has_key(block_fields()) && kind != JointKind::kPrismatic)
+    else if (has_field(block_fields(), key) && kind != JointKind::kPrismatic)
       detail = "belongs to a prismatic joint";
-    else if (has_key(clearance_fields()) && !applies(key, kind))
+    else if (has_field(clearance_fields(), key) && !applies(key, kind))
       detail = "does not belong to a " + kind_word.get<std::string>() + " joint";
     if (detail.empty()) continue;
     faults.push_back({pointer + pointer_token(key), std::move(detail)});
