@@ -243,7 +243,7 @@ TEST(SyntheticFit, HeavyIsHonestWhereRunsDiverge) {
   }
 }
 
-/// Not of every day: a coupler that bends takes ten times as long.
+/// For the long run alone: jobs with a coupler that bends take several times as long.
 TEST(SyntheticFit, HeavyIsHonestWhereTheCouplerBends) { expect_honest_intervals(try_few_sets(kFlexible)); }
 
 }  // namespace
