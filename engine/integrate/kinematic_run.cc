@@ -14,30 +14,21 @@
 #include <vector>
 
 #include "engine/dynamics/energies.h"
+#include "engine/integrate/block_instants.h"
 #include "engine/integrate/choose_integrator.h"
-#include "engine/integrate/quartic.h"
 #include "engine/integrate/sample_times.h"
+#include "engine/integrate/tracked_quantity.h"
 
 namespace engine {
 
 namespace {
 
-constexpr std::size_t kSteps = 4;           // of a block
+constexpr std::size_t kSteps = kBlockSteps;
 constexpr double kStepOfTimeScale = 0.015;  // a step's part of the drives' time scale
-constexpr double kPerSecond = 1000.0;       // steps end on the grid of milliseconds, times powers of two
-constexpr double kSameInstant = 1e-12;      // of the time
 constexpr double kFirstOfLongest = 0.01;    // the first step of a run, of the longest one
 constexpr double kResolved = 3e-6;          // fourth difference of a block, of the largest value
 constexpr double kNegligibleRate = 1e-9;    // [m/s^2], [rad/s^2], [W]: below, gravity's rounding counts
-constexpr double kExtremumStep = 1.0 / 32.0;  // of a step: the short one around an acceleration's extremum
 constexpr long kBlocksBetweenQueries = 64;
-
-/// A quantity whose extrema become ends of steps.
-struct TrackedQuantity {
-  Quartic interpolant;   ///< in the present block
-  double range = 0.0;    ///< largest minus least value in the block
-  double largest = 0.0;  ///< magnitude in the run so far
-};
 
 class KinematicRun {
  public:
@@ -196,7 +187,7 @@ class KinematicRun {
     const double shortest = std::max(kShortest * longest, kSameInstant * nodes_[0].t);
     double last_error = std::numeric_limits<double>::infinity();
     for (double step = first; step >= shortest; step *= 0.5) {
-      place_nodes(limit, step);
+      times_ = calc_block_instants(nodes_[0].t, step, limit, options_.duration);
       if (!solve_nodes()) continue;
       // Rounding, which grows next to change points, does not fall with the step.
       const bool rounding = !is_resolved() && interpolation_error_ > 0.5 * last_error;
@@ -208,50 +199,6 @@ class KinematicRun {
       return true;
     }
     return false;
-  }
-
-  /// Sets the instants of a block of steps no longer than `step`. They lie on the grid of milliseconds times
-  /// a power of two: common output rates find their samples on it, and steps do not depend on the output
-  /// rate. `limit` is a corner of a drive's law or the end of the run. Worked cases:
-  ///
-  ///     start 6 ms, step 2.5 ms, limit far: the grid is that of 2 ms, and start is on it.
-  ///       6, 8, 10, 12, 14 ms
-  ///     start 5.3 ms, step 1.2 ms, limit far: the grid is that of 1 ms, and start is off it. Four equal
-  ///       steps lead to the next point of the grid: 5.3, 5.475, 5.65, 5.825, 6 ms.
-  ///     start 6 ms, step 1.2 ms, limit 8.05 ms: two whole ticks of 1 ms fit, so ticks are halved, 6, 6.5,
-  ///       7, 7.5, 8 ms. The remainder of 0.05 ms is a sliver: four equal steps lead to the limit instead.
-  void place_nodes(double limit, double step) {
-    constexpr double kSliver = 0.125;  // of a tick: a shorter remainder beside the grid joins the block
-    const double start = nodes_[0].t;
-    int level = std::ilogb(kPerSecond * step);
-    const double position = std::ldexp(kPerSecond * start, -level);  // in ticks
-    double tick = std::round(position);
-    double stop = 0.0;
-    const double length = calc_instant(1.0, level);
-    if (calc_instant(tick, level) == start) {
-      // A limit this near to the grid is on it.
-      const double whole = std::floor(std::ldexp(kPerSecond * limit * (1.0 + kSameInstant), -level)) - tick;
-      const int halvings = whole >= 4.0 ? 0 : whole >= 2.0 ? 1 : 2;
-      level -= halvings;
-      tick = std::ldexp(tick, halvings);
-      for (std::size_t k = 0; k <= kSteps; ++k)
-        times_[k] = calc_instant(tick + static_cast<double>(k), level);
-      stop = whole >= 1.0 ? times_[kSteps] : limit;
-      if (std::abs(limit - stop) < kSameInstant * limit && limit == options_.duration) times_[kSteps] = limit;
-      if (stop != limit && (limit - stop > kSliver * length || limit - stop < kSameInstant * limit)) return;
-      stop = limit;
-    } else {
-      stop = calc_instant(std::floor(position + kSliver) + 1.0, level);
-      if (stop > limit - kSliver * length) stop = limit;
-    }
-    for (std::size_t k = 0; k <= kSteps; ++k)
-      times_[k] = start + (stop - start) * static_cast<double>(k) / kSteps;
-    times_[kSteps] = stop;
-  }
-
-  /// The same number as that of a sample at the same instant.
-  [[nodiscard]] static double calc_instant(double tick, int level) {
-    return std::ldexp(tick, level) / kPerSecond;
   }
 
   [[nodiscard]] bool solve_nodes() {
@@ -304,7 +251,7 @@ class KinematicRun {
           interpolate(accelerations_[j], [i = unknown[j]](const Evaluation& at) { return at.qdd[i]; });
       acceleration_scale_ = std::max(acceleration_scale_, largest);
       of_accelerations =
-          std::max(of_accelerations, std::abs(accelerations_[j].interpolant.fourth_difference()));
+          std::max(of_accelerations, std::abs(accelerations_[j].interpolant().fourth_difference()));
     }
     double of_powers = 0.0;
     block_power_ = 0.0;
@@ -312,7 +259,7 @@ class KinematicRun {
       const auto power = [this, k](const Evaluation& at) { return calc_power(at, k); };
       block_power_ = std::max(block_power_, interpolate(powers_[k], power));
       power_scale_ = std::max(power_scale_, block_power_);
-      of_powers = std::max(of_powers, std::abs(powers_[k].interpolant.fourth_difference()));
+      of_powers = std::max(of_powers, std::abs(powers_[k].interpolant().fourth_difference()));
     }
     power_error_ = of_powers;
     interpolation_error_ = std::max(of_accelerations / acceleration_scale_, of_powers / power_scale_);
@@ -329,14 +276,9 @@ class KinematicRun {
   /// @returns the largest magnitude in the block
   template <typename Quantity>
   double interpolate(TrackedQuantity& tracked, const Quantity& quantity) const {
-    std::array<double, kSteps + 1> f{};
+    BlockInstants f{};
     for (std::size_t k = 0; k <= kSteps; ++k) f[k] = quantity(nodes_[k]);
-    const auto [least, most] = std::minmax_element(f.begin(), f.end());
-    tracked.interpolant = Quartic(f[0], f[1], f[2], f[3], f[4]);
-    tracked.range = *most - *least;
-    const double largest = std::max(std::abs(*least), std::abs(*most));
-    tracked.largest = std::max(tracked.largest, largest);
-    return largest;
+    return tracked.set(f);
   }
 
   [[nodiscard]] double calc_power(const Evaluation& at, std::size_t drive) const {
@@ -380,9 +322,9 @@ class KinematicRun {
     const double half = 0.5 * kExtremumStep;
     double largest = 0.0;
     for (const TrackedQuantity& acceleration : accelerations_)
-      largest = std::max(largest, acceleration.largest);
+      largest = std::max(largest, acceleration.largest());
     for (const TrackedQuantity& acceleration : accelerations_)
-      for_each_extremum(acceleration, largest, [&](double s) {
+      acceleration.for_each_extremum(largest, [&](double s) {
         add_split(s - half);
         add_split(s + half);
       });
@@ -393,7 +335,7 @@ class KinematicRun {
                           : at.joints[k - drives].reaction_W.norm();
       };
       interpolate(loads_[k], load);
-      for_each_extremum(loads_[k], loads_[k].largest, [&](double s) { add_split(s); });
+      loads_[k].for_each_extremum(loads_[k].largest(), [&](double s) { add_split(s); });
     }
     std::sort(splits_.begin(), splits_.end());
   }
@@ -402,40 +344,13 @@ class KinematicRun {
     if (s > 0.0 && s < kSteps) splits_.push_back(nodes_[0].t + s * (nodes_[kSteps].t - nodes_[0].t) / kSteps);
   }
 
-  /// Extrema of a quantity: one in each step between whose ends the slope of the interpolant changes sign. An
-  /// extremum at the common end of two blocks is found by both.
-  template <typename Take>
-  void for_each_extremum(const TrackedQuantity& tracked, double scale, const Take& take) const {
-    constexpr double kRounding = 1e-10;
-    if (!(tracked.range > kRounding * scale)) return;
-    const double over = 0.25 * kExtremumStep;
-    const std::array<double, kSteps + 1> positions{-over, 1.0, 2.0, 3.0, kSteps + over};
-    double slope = tracked.interpolant.slope(positions[0]);
-    for (std::size_t k = 1; k <= kSteps; ++k) {
-      const double next = tracked.interpolant.slope(positions[k]);
-      if (slope * next < 0.0) take(find_extremum(tracked.interpolant, positions[k - 1], positions[k]));
-      slope = next;
-    }
-  }
-
-  /// Root of the slope, by bisection. The slope has opposite signs at the two ends.
-  [[nodiscard]] static double find_extremum(const Quartic& interpolant, double from, double to) {
-    constexpr int kHalvings = 40;
-    const bool rises = interpolant.slope(from) > 0.0;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (from + to);
-      ((interpolant.slope(middle) > 0.0) == rises ? from : to) = middle;
-    }
-    return 0.5 * (from + to);
-  }
-
   /// Work of the drives at an instant of the block.
   void set_work(Evaluation& at) const {
     const double step = (nodes_[kSteps].t - nodes_[0].t) / kSteps;
     for (std::size_t k = 0; k < powers_.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       at.energy.drive_work[i] = nodes_[0].energy.drive_work[i] +
-                                step * powers_[k].interpolant.integral((at.t - nodes_[0].t) / step);
+                                step * powers_[k].interpolant().integral((at.t - nodes_[0].t) / step);
     }
   }
 
@@ -470,7 +385,7 @@ class KinematicRun {
   Observer& observer_;
   SampleTimes samples_;
   std::array<Evaluation, kSteps + 1> nodes_;  ///< of the block; the first is solved already
-  std::array<double, kSteps + 1> times_{};    ///< their instants, [s]
+  BlockInstants times_{};                     ///< their instants
   std::array<bool, kSteps + 1> is_far_{true, true, true, true, true};  ///< of each node, from change points
   std::array<Evaluation, 2> extra_;           ///< at split instants, alternately
   Evaluation predicted_;                      ///< coordinates by extrapolation
