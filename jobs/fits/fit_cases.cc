@@ -17,16 +17,6 @@ using nlohmann::ordered_json;
 /// Steps between the ends of a span that its decimals tell apart.
 constexpr double kSpanSteps = 1e6;
 
-void set_in_case(ordered_json& one_case, const std::string& path, const json& value) {
-  if (is_path_in_description(path)) {
-    one_case[path] = value;
-    return;
-  }
-  json alone = json::object();
-  set_at_path(alone, path, value);
-  one_case.merge_patch(ordered_json(alone));
-}
-
 }  // namespace
 
 std::vector<Span> spans_of(const FitProblem& problem) {

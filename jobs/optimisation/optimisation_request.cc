@@ -258,14 +258,8 @@ ordered_json case_of(const OptimisationRequest& request, const std::vector<doubl
   ordered_json made = ordered_json::object();
   for (std::size_t i = 0; i < candidate.size(); ++i) {
     const Variable& variable = request.variables[i];
-    const json value = variable.integer ? json(std::llround(candidate[i])) : json(candidate[i]);
-    if (is_path_in_description(variable.path)) {
-      made[variable.path] = value;
-      continue;
-    }
-    json alone = json::object();
-    set_at_path(alone, variable.path, value);
-    made.merge_patch(ordered_json(alone));
+    set_in_case(made, variable.path,
+                variable.integer ? json(std::llround(candidate[i])) : json(candidate[i]));
   }
   return made;
 }

@@ -31,17 +31,12 @@ Optimiser optimiser_of(const StudyRow& row, const SweepResults& results) {
 
 /// Faults of cases as faults of the variables that gave them their values.
 InvalidRequest invalid_request_of(const InvalidRequest& invalid) {
-  constexpr std::string_view kCases = "/cases/";
   std::vector<Fault> faults;
   std::set<std::string> told;
   for (Fault fault : invalid.faults()) {
-    if (fault.pointer.starts_with(kCases)) {
-      const auto slash = fault.pointer.find('/', kCases.size());
-      const std::string place = slash == std::string::npos ? "" : fault.pointer.substr(slash);
-      const std::string path = path_of_pointer(place);
-      const bool is_token =
-          path.empty() && is_path_in_description(place.substr(std::min<std::size_t>(1, place.size())));
-      fault.pointer = "/over" + (is_token ? place : path.empty() ? "" : pointer_token(path));
+    if (fault.pointer.starts_with("/cases/")) {
+      const std::string path = path_in_case(fault.pointer);
+      fault.pointer = "/over" + (path.empty() ? "" : pointer_token(path));
     }
     if (told.insert(fault.pointer + fault.detail).second) faults.push_back(std::move(fault));
   }

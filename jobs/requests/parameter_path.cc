@@ -122,6 +122,27 @@ void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohma
   *target = value;
 }
 
+void set_in_case(nlohmann::ordered_json& one_case, const std::string& path, const nlohmann::json& value) {
+  if (is_path_in_description(path)) {
+    one_case[path] = value;
+    return;
+  }
+  nlohmann::json alone = nlohmann::json::object();
+  set_at_path(alone, path, value);
+  one_case.merge_patch(nlohmann::ordered_json(alone));
+}
+
+std::string path_in_case(std::string_view pointer) {
+  constexpr std::string_view kCases = "/cases/";
+  if (!pointer.starts_with(kCases)) return "";
+  const auto slash = pointer.find('/', kCases.size());
+  if (slash == std::string_view::npos) return "";
+  const std::string_view place = pointer.substr(slash);
+  if (std::string path = path_of_pointer(place); !path.empty()) return path;
+  const std::string_view token = place.substr(1);
+  return is_path_in_description(token) ? std::string(token) : "";
+}
+
 nlohmann::json whole_parameters_of(const nlohmann::json& common, const nlohmann::json& one_case) {
   nlohmann::json whole = one_case;
   for (const auto& [key, value] : one_case.items())

@@ -39,6 +39,13 @@ namespace jobs {
 /// they have
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value);
 
+/// Writes a value into a case of a sweep, where a number of a description is a key: its path.
+void set_in_case(nlohmann::ordered_json& one_case, const std::string& path, const nlohmann::json& value);
+
+/// The path of the value of a case at or around a pointer: "/cases/3/links/1,3/mass_kg" ->
+/// "links.1,3.mass_kg". @returns empty for the whole case and for any other place
+[[nodiscard]] std::string path_in_case(std::string_view pointer);
+
 /// Parameters of a case of a sweep: the case's own replace common ones, and its numbers inside a description
 /// ("linkage.bodies.rod.mass_kg") are set there.
 /// @param one_case  its paths have no fault that describe_description_path_fault() finds

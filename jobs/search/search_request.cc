@@ -5,12 +5,14 @@
 #include <cmath>
 #include <set>
 
+#include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/span.h"
 #include "jobs/requests/axis.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
+#include "jobs/requests/request_parser.h"
 
 namespace jobs {
 namespace {
@@ -21,41 +23,24 @@ using nlohmann::ordered_json;
 constexpr std::array<std::string_view, 6> kKeysOfItsSweeps{"name",       "parameters", "sweep",
                                                            "replicates", "reuse",      "priority"};
 
-std::vector<std::string_view> metric_keys() {
-  std::vector<std::string_view> keys;
-  for (const engine::QuantityInfo& metric : engine::metric_table()) keys.push_back(metric.key);
-  return keys;
-}
-
-/// Reads one request; a member function a part of it.
-class SearchParser {
+/// Reader of one request; a member function a part of it.
+class SearchParser : private RequestParser {
  public:
-  SearchParser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+  SearchParser(const ordered_json& request, std::size_t max_jobs)
+      : RequestParser(request), max_jobs_(max_jobs) {}
 
   SearchRequest parse() {
-    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
-    check_keys();
+    check_keys_of(json(request_), "", kSearchRequestKeys);
+    read_common();
     read_over();
     read_metric();
     read_rule();
-    read_common();
     check_size();
-    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    throw_if_faulty();
     return std::move(search_);
   }
 
  private:
-  void fault(std::string pointer, std::string detail) {
-    faults_.push_back({std::move(pointer), std::move(detail)});
-  }
-
-  void check_keys() {
-    for (const auto& [key, value] : request_.items()) {
-      if (std::ranges::find(kSearchRequestKeys, key) == kSearchRequestKeys.end()) fault(pointer_token(key),
-          describe_unknown_key(key, kSearchRequestKeys));
-    }
-  }
-
   void read_over() {
     if (!request_.contains("over") || !request_.at("over").is_object() || request_.at("over").size() != 1) {
       return fault(
@@ -66,10 +51,12 @@ class SearchParser {
     const std::string pointer = "/over" + pointer_token(path);
     if (!is_known_path(path, pointer, faults_)) return;
     if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
-    if (is_path_in_description(path)) {
-      return fault(pointer, "must be a parameter of the job, no number inside a description");
-    }
+    if (is_path_in_description(path) &&
+        !is_right(pointer, describe_description_path_fault(search_.common.parameters, path)))
+      return;
     search_.parameter = path;
+    const auto& swept = search_.common.swept;
+    if (std::ranges::find(swept, path) != swept.end()) fault(pointer, "is an axis of sweep, too");
     const json given = request_.at("over").begin().value();
     if (!given.is_object()) {
       return fault(pointer, "must be an object of from, to, scale, tolerance and first");
@@ -102,24 +89,19 @@ class SearchParser {
   template <typename Describe>
   void check_if_given(const json& given, const char* key, const std::string& pointer,
                       const Describe& describe) {
-    if (!given.contains(key)) return;
-    if (std::string detail = describe(given.at(key)); !detail.empty()) {
-      fault(pointer + "/" + key, std::move(detail));
-    }
+    if (given.contains(key)) (void)is_right(pointer + "/" + key, describe(given.at(key)));
   }
 
   void check_end(const json& end, const std::string& pointer) {
-    json alone = json::object();
-    set_at_path(alone, search_.parameter, end);
-    for (const Fault& found : find_value_faults(alone)) fault(pointer, found.detail);
+    for (const Fault& found : find_path_faults(search_.parameter, end)) fault(pointer, found.detail);
   }
 
   void read_metric() {
-    const auto known = metric_keys();
+    const std::vector<std::string_view> known(metrics_.begin(), metrics_.end());
     if (!request_.contains("metric") || !request_.at("metric").is_string()) return fault("/metric",
         "must be the name of a metric, peak_slider_acceleration_m_s2, say");
     search_.metric = request_.at("metric").get<std::string>();
-    if (std::ranges::find(known, search_.metric) == known.end()) {
+    if (!known.empty() && std::ranges::find(known, search_.metric) == known.end()) {
       fault("/metric", "\"" + search_.metric + "\": " + describe_unknown_key(search_.metric, known));
     }
   }
@@ -141,20 +123,18 @@ class SearchParser {
 
   /// Reads the keys that a search has in common with a sweep.
   void read_common() {
-    ordered_json common = ordered_json::object();
-    for (const std::string_view key : kKeysOfItsSweeps) {
-      if (request_.contains(key)) common[std::string(key)] = request_.at(key);
-    }
     try {
-      search_.common = parse_sweep_request(common, max_jobs_);
+      search_.common = parse_sweep_request(parts_of(kKeysOfItsSweeps), max_jobs_);
+      add_metrics(search_.common.parameters);
     } catch (const InvalidRequest& invalid) {
-      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
-      return;
+      add_faults(invalid);
+      const bool is_described = request_.value("parameters", ordered_json()).contains(kLinkageKey);
+      if (metrics_.empty() && !is_described) add_metrics(json::object());
     }
-    const auto& swept = search_.common.swept;
-    if (std::ranges::find(swept, search_.parameter) != swept.end()) {
-      fault("/over" + pointer_token(search_.parameter), "is an axis of sweep, too");
-    }
+  }
+
+  void add_metrics(const json& parameters) {
+    for (const engine::QuantityInfo& metric : metric_table(parameters)) metrics_.push_back(metric.key);
   }
 
   void check_size() {
@@ -171,19 +151,16 @@ class SearchParser {
     }
   }
 
-  const ordered_json& request_;
   std::size_t max_jobs_;
   SearchRequest search_;
+  std::vector<std::string> metrics_;  ///< of the linkage; empty if it has faults
   bool interval_is_valid_ = false;
-  std::vector<Fault> faults_;
 };
 
 /// "/cases/3/clearance_mm" in the sweep as the place in the search's request that its value came from.
 std::string pointer_in_search(const std::string& pointer, const SearchRequest& search) {
-  constexpr std::string_view kCases = "/cases/";
-  if (!pointer.starts_with(kCases)) return pointer;
-  const auto slash = pointer.find('/', kCases.size());
-  const std::string path = slash == std::string::npos ? "" : path_of_pointer(pointer.substr(slash));
+  if (!pointer.starts_with("/cases/")) return pointer;
+  const std::string path = path_in_case(pointer);
   return (path == search.parameter ? "/over" : "/sweep") + (path.empty() ? "" : pointer_token(path));
 }
 
@@ -210,13 +187,9 @@ std::vector<std::vector<json>> combinations_of(const SearchRequest& search) {
 
 ordered_json case_at(const SearchRequest& search, const std::vector<json>& combination, double x) {
   ordered_json made = ordered_json::object();
-  const auto add = [&](const std::string& path, const json& value) {
-    json alone = json::object();
-    set_at_path(alone, path, value);
-    made.merge_patch(ordered_json(alone));
-  };
-  for (std::size_t i = 0; i < combination.size(); ++i) add(search.common.axes[i].path, combination[i]);
-  add(search.parameter, search.interval.integer ? json(std::llround(x)) : json(x));
+  for (std::size_t i = 0; i < combination.size(); ++i)
+    set_in_case(made, search.common.axes[i].path, combination[i]);
+  set_in_case(made, search.parameter, search.interval.integer ? json(std::llround(x)) : json(x));
   return made;
 }
 

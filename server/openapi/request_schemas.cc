@@ -229,13 +229,17 @@ Json make_search_request() {
   }
   for (const engine::QuantityInfo& metric : engine::metric_table()) metrics.push_back(metric.key);
   Json over = options_of(std::move(paths));
+  over["patternProperties"] = {{"^(linkage|crank_drive|rod_drive)\\.", ref("SearchPath")}};
   over["minProperties"] = over["maxProperties"] = 1;
   const Json all = make_sweep_request().at("properties");
   Json request =
       object_of({{"name", all.at("name")},
                  {"parameters", all.at("parameters")},
                  {"over", std::move(over)},
-                 {"metric", {{"type", "string"}, {"enum", std::move(metrics)}}},
+                 {"metric",
+                  {{"type", "string"},
+                   {"description", "of the linkage; the examples are those of RPSUP"},
+                   {"examples", std::move(metrics)}}},
                  {"bound", {{"type", "number"}, {"description", "in the unit of the metric"}}},
                  {"quantile",
                   {{"type", "number"},

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/simulate_linkage.h"
 #include "jobs/base/errors.h"
+#include "jobs/requests/parameters.h"
 #include "jobs/service.h"
 #include "tests/jobs/service_support.h"
 
@@ -293,8 +295,8 @@ TEST(Search, IsRefusedWithEveryFault) {
   EXPECT_TRUE(list(service, "").empty());
 }
 
-// The metrics are those of the linkage "rpsup". A token of digits is no place in a list of that length.
-TEST(Search, IsRefusedOverNumbersOfADescribedLinkage) {
+// A token of digits is no place in a list of that length.
+TEST(Search, IsRefusedOverNumbersOfNoDescription) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
@@ -307,6 +309,59 @@ TEST(Search, IsRefusedOverNumbersOfADescribedLinkage) {
     request["sweep"] = {{path, {1, 2}}};
     EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/sweep/" + path});
   }
+}
+
+ordered_json request_over_a_pendulum() {
+  const ordered_json linkage = ordered_json::parse(R"({
+    "bodies": {"rod": {"mass_kg": 1, "centre_of_mass_m": [0, 0, -0.5]}},
+    "joints": {"pin": {"kind": "revolute", "axis": "y", "from": "ground", "to": "rod"}}})");
+  return {{"parameters", {{"linkage", linkage}}},
+          {"over", {{"linkage.bodies.rod.mass_kg", {{"from", 1}, {"to", 9}, {"tolerance", 0.01}}}}},
+          {"metric", jobs::metric_table(json{{"linkage", json(linkage)}}).at(0).key},
+          {"bound", 2.5}};
+}
+
+// Of a linkage that is described: a number of its description, for each value of another one, by a metric of
+// its own.
+TEST(Search, LooksForTheLimitOfANumberOfADescription) {
+  const TemporaryStore store;
+  jobs::ServiceOptions options = options_of(store, 2);
+  options.runner = [](const jobs::JobSpec& spec, const engine::StopQuery&, const auto&...) {
+    engine::RunResult result;
+    const engine::LinkageTables tables = engine::linkage_tables(spec.linkage.value());
+    const engine::LinkageBody& rod = spec.linkage->bodies.at(0);
+    // Above 2.5 from 5.3 kg on with the lighter gravity, from 2.65 kg on with the heavier one.
+    result.metrics.assign(tables.metrics.size(), rod.mass * spec.linkage->gravity_W.norm() / 9.81 * 2.5 / 5.3);
+    return result;
+  };
+  jobs::Service service(options);
+  ordered_json request = request_over_a_pendulum();
+  request["sweep"] = {{"gravity_m_s2", {9.81, 19.62}}};
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended;
+  ASSERT_EQ(ended.at("limits").size(), 2U);
+  EXPECT_NEAR(ended.at("limits").at(0).at("limit").get<double>(), 5.3, 0.01);
+  EXPECT_NEAR(ended.at("limits").at(1).at("limit").get<double>(), 2.65, 0.01);
+  EXPECT_EQ(ended.at("parameter"), "linkage.bodies.rod.mass_kg");
+}
+
+TEST(Search, OfADescribedLinkageIsRefusedWithEveryFault) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  ordered_json request = request_over_a_pendulum();
+  request["metric"] = "peak_slider_acceleration_m_s2";
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/metric"});
+  request = request_over_a_pendulum();
+  request["over"] = {{"linkage.bodies.rod.mass_kg", {{"from", 1}, {"to", -9}}}};
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/linkage.bodies.rod.mass_kg"});
+  request = request_over_a_pendulum();
+  request["sweep"] = {{"linkage.bodies.rod.mass_kg", {1, 2}}};
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/linkage.bodies.rod.mass_kg"});
+  request["over"] = {{"linkage.bodies.rod.length", {{"from", 1}, {"to", 9}}}};
+  request.erase("sweep");
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/linkage.bodies.rod.length"})
+      << "no number of a body";
 }
 
 TEST(Search, IsListedByItsState) {

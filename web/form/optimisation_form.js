@@ -23,7 +23,7 @@ export class OptimisationForm extends StudyForm {
 
   constructor(fields, schemas, request) {
     super(fields, schemas, request);
-    this.metrics = schemas.SearchRequest.properties.metric.enum;
+    this.metrics = schemas.SearchRequest.properties.metric.examples;
     this.state.over = readVariables(request.over);
     this.state.method = request.method ?? "";
     this.state.objectives = (request.objectives ?? [{}]).map(({ metric = "", goal = "minimise", quantile }) =>

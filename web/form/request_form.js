@@ -99,7 +99,7 @@ export class RequestForm {
   }
 
   /// A value with help below it, and a place for its fault.
-  /// @param name  of the row  @param options  to choose among; null: any text
+  /// @param name  of the row  @param options  to choose among; null: any text  @param known  texts that are proposed
   /**
    * @param {string} name
    * @param {string} label
@@ -107,13 +107,16 @@ export class RequestForm {
    * @param {string} key
    * @param {string} help
    * @param {string[][] | null} options
+   * @param {string[][]} known
    */
-  told(name, label, object, key, help, options = null) {
+  told(name, label, object, key, help, options = null, known = []) {
     const id = freshId("told");
     const listen = { oninput: () => { object[key] = input.value; this.update(); } };
     const attributes = { id, "aria-describedby": `${id}-help ${id}-fault`, ...listen };
     const input = options ? h("select", attributes, options.map(([value, text]) => h("option", { value }, text)))
-      : h("input", { type: "text", ...attributes });
+      : h("input", { type: "text", ...attributes, list: known.length > 0 ? `${id}-known` : undefined });
+    const list = known.length === 0 ? ""
+      : h("datalist", { id: `${id}-known` }, known.map(([value, text]) => h("option", { value }, text)));
     input.value = object[key];
     const fault = h("p", { class: "trouble small", id: `${id}-fault`, hidden: true });
     const labelled = h("label", { for: id }, label);
@@ -122,7 +125,7 @@ export class RequestForm {
       fault.hidden = text === "";
       input.setAttribute("aria-invalid", text === "" ? "false" : "true");
     } });
-    return h("div", { class: "field" }, labelled, h("span"), h("div", { class: "values" }, input),
+    return h("div", { class: "field" }, labelled, h("span"), h("div", { class: "values" }, input, list),
       h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
   }
 

@@ -40,19 +40,20 @@ export class SearchForm extends StudyForm {
   parts() {
     const { over, values } = this.state;
     const numbers = this.fields.filter(({ kind }) => kind === "number" || kind === "integer").map(({ path }) => path);
-    const metrics = this.schema.metric.enum.map((metric) => [metric, titleOf(metric)]);
+    const metrics = this.schema.metric.examples.map((metric) => [metric, titleOf(metric)]);
     const help = (key) => helpOf(this.way[key]);
     return [this.nameField(),
       h("h2", {}, "Search"),
       this.told("over.parameter", "Parameter", over, "parameter",
-        "Parameter whose largest admissible value is searched", numbers.map((path) => [path, titleOf(path)])),
+        "Parameter whose largest admissible value is searched; also a number of a description, such as "
+        + "linkage.bodies.rod.mass_kg", null, numbers.map((path) => [path, titleOf(path)])),
       this.told("over.from", "From", over, "from", "Start of the search, where the metric is within its bound"),
       this.told("over.to", "To", over, "to", "End of the search; may be less than its start"),
       this.told("over.scale", "Spacing", over, "scale", "Bisection of differences (linear) or of ratios (logarithmic)",
         [["linear", "linear"], ["log", "logarithmic"]]),
       this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")),
       this.told("over.first", "Initial values", over, "first", help("first")),
-      this.told("metric", "Metric", values, "metric", "Metric that must not exceed the bound", metrics),
+      this.told("metric", "Metric", values, "metric", "Metric that must not exceed the bound", null, metrics),
       this.number("bound"), this.number("quantile"),
       h("h2", {}, "Linkage and axes"),
       h("p", { class: "quiet small" }, "One limit for each combination of the parameters that have a list or a range."),
@@ -67,7 +68,7 @@ export class SearchForm extends StudyForm {
     const way = {};
     for (const key of ["from", "to", "tolerance", "first"]) addNumber(over[key], key, `over.${key}`, way, problems);
     if (over.scale !== "linear") way.scale = over.scale;
-    const request = { name, parameters, over: { [over.parameter]: way }, metric: values.metric };
+    const request = { name, parameters, over: { [over.parameter.trim()]: way }, metric: values.metric.trim() };
     this.addNumbers(["bound", "quantile"], request, problems);
     return { request: JSON.parse(JSON.stringify({ ...request, sweep, replicates, priority, reuse })), problems };
   }
