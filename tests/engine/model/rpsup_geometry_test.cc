@@ -192,7 +192,8 @@ TEST(StrokeLaws, LetNoStepCrossAJump) {
         p.rod_law = law;
         p.run_up = 0.2;
         p.c_r = clearance;
-        p.coupler = Coupler::kFlexible;
+        // An explicit method follows the coupler's fast vibrations for long.
+        p.coupler = integrator == Integrator::kDopri5 ? Coupler::kRigid : Coupler::kFlexible;
         p.friction = FrictionLaw::kNone;
         const RunResult run = run_rpsup(p, {.duration = 1.1,
                                             .integrator = integrator,
