@@ -67,10 +67,12 @@ bool has_clearance(const Mechanism& mechanism) {
 
 bool is_rigid(const Mechanism& mechanism) {
   constexpr auto is_damped = [](const auto& spring) { return spring.damping > 0.0; };
+  constexpr auto has_drag = [](const PointSpring& spring) { return spring.drag > 0.0; };
   return !has_clearance(mechanism) && !has_elastic_links(mechanism) && mechanism.actuations.empty() &&
          mechanism.body_loads.empty() &&
          std::ranges::none_of(mechanism.coordinates, is_damped) &&
-         std::ranges::none_of(mechanism.springs, is_damped);
+         std::ranges::none_of(mechanism.springs, is_damped) &&
+         std::ranges::none_of(mechanism.springs, has_drag);
 }
 
 Integrator choose_integrator(const Mechanism& mechanism, Integrator requested) {

@@ -146,6 +146,7 @@ TreeSpring make_spring(const PointSpring& spring, const JointFinder& finder) {
           .to = make_placement({.p = spring.to}),
           .stiffness = spring.stiffness,
           .damping = spring.damping,
+          .drag = spring.drag,
           .free_length = spring.free_length};
 }
 

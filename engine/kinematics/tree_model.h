@@ -65,8 +65,9 @@ struct TreeCutJoint {
 struct TreeSpring {
   int from_joint = -1, to_joint = -1;
   TreePlacement from, to;
-  double stiffness = 0.0, damping = 0.0;  ///< [N/m], [N s/m]
-  double free_length = 0.0;               ///< [m]
+  double stiffness = 0.0;            ///< [N/m]
+  double damping = 0.0, drag = 0.0;  ///< [N s/m]
+  double free_length = 0.0;          ///< [m]
 };
 
 /// A load on the body of a joint, -1: on the ground.

@@ -237,6 +237,7 @@ class LinkageBuilder {
                                         .to = to.p,
                                         .stiffness = spring.stiffness,
                                         .damping = spring.damping,
+                                        .drag = spring.drag,
                                         .free_length = spring.free_length.value_or(0.0)});
   }
 

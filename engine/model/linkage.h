@@ -78,7 +78,8 @@ struct LinkageSpring {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();     ///< in the first body's frame, [m]
   Eigen::Vector3d to_at = Eigen::Vector3d::Zero();  ///< in the second body's, [m]
   double stiffness = 0.0;               ///< [N/m]
-  double damping = 0.0;                 ///< [N s/m]
+  double damping = 0.0;                 ///< along the spring, [N s/m]
+  double drag = 0.0;                    ///< in any direction, [N s/m]
   std::optional<double> free_length =
       {};  ///< [m]; empty: the distance of the ends in the assembled position, see check_linkage()
 };

@@ -95,7 +95,8 @@ struct CutJoint {
 };
 
 /// A spring with a damper between points of two bodies: at a distance L it pulls them together with k (L -
-/// L_0) + d L'.
+/// L_0) + d L'. Its drag c acts against their relative velocity v, whichever way that points: -c v on the
+/// second one.
 struct PointSpring {
   FrameIndex from_frame = kGround;
   FrameIndex to_frame = kGround;
@@ -103,6 +104,7 @@ struct PointSpring {
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< in to_frame, [m]
   double stiffness = 0.0;                          ///< k, [N/m]
   double damping = 0.0;                            ///< d, [N s/m]
+  double drag = 0.0;                               ///< c, [N s/m]
   double free_length = 0.0;                        ///< L_0, [m]
 };
 

@@ -158,8 +158,9 @@ class LinkageChecker {
         fault(pointer + pointer_token(end), "there is no body " + spring.at(end).get<std::string>());
     if (spring.contains("to") && spring.value("from", json()) == spring.at("to"))
       fault(pointer + "/to", "must be a body other than from");
-    if (!spring.contains("stiffness_n_m") && !spring.contains("damping_n_s_m"))
-      fault(pointer, "must have a stiffness_n_m, a damping_n_s_m or both");
+    if (!spring.contains("stiffness_n_m") && !spring.contains("damping_n_s_m") &&
+        !spring.contains("drag_n_s_m"))
+      fault(pointer, "must have a stiffness_n_m, a damping_n_s_m or a drag_n_s_m");
     for (const auto& [other, joint] : given_.at("joints").items())
       if (other == name) fault(pointer, "needs a name that is no joint's: there is a joint " + other);
   }

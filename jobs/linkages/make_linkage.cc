@@ -220,6 +220,7 @@ class LinkageMaker {
             .to_at = point_of(given, "to_at_m"),
             .stiffness = given.value("stiffness_n_m", 0.0),
             .damping = given.value("damping_n_s_m", 0.0),
+            .drag = given.value("drag_n_s_m", 0.0),
             .free_length = given.contains("free_length_m")
                                ? std::optional(given.at("free_length_m").get<double>())
                                : std::nullopt};

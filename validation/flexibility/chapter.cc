@@ -22,7 +22,8 @@ come springs and dampers between points of two bodies of a described linkage.)",
                     {"links_sag_as_beams", compute_link_sags},
                     {"stiff_links_move_as_rigid_ones", compute_stiff_links},
                     {"block_on_a_spring_swings_as_known", compute_block_on_a_spring},
-                    {"tied_pendulum_swings_as_known", compute_tied_pendulum}}};
+                    {"tied_pendulum_swings_as_known", compute_tied_pendulum},
+                    {"drag_slows_a_thrown_body", compute_thrown_body}}};
 }
 
 }  // namespace validation

@@ -27,5 +27,7 @@ namespace validation {
 [[nodiscard]] Findings compute_block_on_a_spring();
 /// A pendulum tied by a spring moves as the equation of its angle says.
 [[nodiscard]] Findings compute_tied_pendulum();
+/// A thrown body slows by its drag as the closed form says.
+[[nodiscard]] Findings compute_thrown_body();
 
 }  // namespace validation

@@ -101,6 +101,22 @@ double find_bar_angle(double t) {
   return a;
 }
 
+/// Of 2 kg in a plane, thrown along x, with drag at its origin: m v' = -c v + m g.
+constexpr double kThrownMass = 2.0, kDrag = 3.0, kThrown = 5.0;
+Linkage make_thrown_body() {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -kSpringGravity, 0.0};
+  linkage.bodies = {{.name = "body", .mass = kThrownMass, .inertia = 1e-3 * Eigen::Matrix3d::Identity()}};
+  linkage.joints = {{.name = "plane",
+                     .kind = JointKind::kPlanar,
+                     .from = kGroundName,
+                     .to = "body",
+                     .placement = {},
+                     .freedoms = {{.name = "x", .start_rate = kThrown}, {.name = "y"}, {.name = "turn"}}}};
+  linkage.springs = {{.name = "drag", .from = kGroundName, .to = "body", .drag = kDrag}};
+  return linkage;
+}
+
 }  // namespace
 
 Findings compute_block_on_a_spring() {
@@ -144,6 +160,24 @@ Findings compute_tied_pendulum() {
         "the equation of its angle, by Runge and Kutta's method",
         column(run_linkage(make_tied_pendulum(), method.integrator, kEnd, 100.0), "bar_rad").back(), expected,
         1e-9, "rad", "the steps' tolerance of 1e-10"));
+  return findings;
+}
+
+Findings compute_thrown_body() {
+  constexpr double kEnd = 1.0;
+  Findings findings;
+  const double rate = kDrag / kThrownMass, left = std::exp(-rate * kEnd);
+  const double terminal = kSpringGravity / rate;
+  for (const Method& method : kMethods) {
+    const RunResult run = run_linkage(make_thrown_body(), method.integrator, kEnd, 100.0);
+    const std::string by = std::string(" of a thrown body with drag, after 1 s, ") + method.name;
+    const std::string why = "the steps' tolerance of 1e-10";
+    findings.checks.push_back(compare("horizontal velocity" + by, "v_0 exp(-c t / m)",
+                                      column(run, "x_m_s").back(), kThrown * left, 1e-8, "m/s", why));
+    findings.checks.push_back(compare("fall" + by, "(m g / c) (t - (m / c) (1 - exp(-c t / m)))",
+                                      -column(run, "y_m").back(), terminal * (kEnd - (1.0 - left) / rate), 1e-8,
+                                      "m", why));
+  }
   return findings;
 }
 

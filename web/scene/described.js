@@ -18,7 +18,7 @@ export function bodyColours(linkage) {
   /** @type {(name: string, isThere: any, colour: string) => [string, string][]} */
   const others = (name, isThere, colour) => (isThere ? [[name, colour]] : []);
   return [...Object.entries(coloursOf(linkage)).map(spaced),
-    ...others("springs", linkage.springs, springColour), ...others("loads", linkage.loads, loadColour)];
+    ...others("springs", Object.values(linkage.springs ?? {}).some(isSpring), springColour), ...others("loads", linkage.loads, loadColour)];
 }
 
 /// Colours by the order of the names: the service hands out the bodies in another order than they were
@@ -55,6 +55,8 @@ export function channelsFor(linkage) {
 /** @type {(joint: string) => string} */
 const journalOf = (joint) => `${joint}_journal_z_mm`;
 
+const isSpring = (spring) => Boolean(spring.stiffness_n_m || spring.damping_n_s_m);
+
 /// The places on each body's frame that something sits at, its origin first. "ground" is a body, too.
 /** @param {Api.DescribedLinkage} linkage */
 function placesOn({ bodies, joints, springs = {}, loads = {} }) {
@@ -68,7 +70,7 @@ function placesOn({ bodies, joints, springs = {}, loads = {} }) {
     if (body.beam) places[name].push([body.beam.length_m, 0, 0]);
     else if (places[name].length === 1) places[name].push(body.centre_of_mass_m ?? [0, 0, 0]);
   }
-  for (const { from, at_m: at = [0, 0, 0], to, to_at_m: toAt = [0, 0, 0] } of Object.values(springs)) {
+  for (const { from, at_m: at = [0, 0, 0], to, to_at_m: toAt = [0, 0, 0] } of Object.values(springs).filter(isSpring)) {
     places[from].push(at);
     places[to].push(toAt);
   }
@@ -114,7 +116,8 @@ export class DescribedLinkage {
     for (const [name, joint] of Object.entries(linkage.joints)) {
       for (const mark of marksOf(THREE, joint, look, ranges[journalOf(name)])) this.#addMark(mark);
     }
-    this.springs = Object.values(linkage.springs ?? {}).map((spring) => this.#makeSpring(spring));
+    // Drag alone has no shape.
+    this.springs = Object.values(linkage.springs ?? {}).filter(isSpring).map((spring) => this.#makeSpring(spring));
     this.loads = new Loads(THREE, linkage.loads ?? {}, this.radius, ranges);
     this.group.add(this.loads.group);
   }

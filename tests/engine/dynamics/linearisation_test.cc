@@ -80,13 +80,13 @@ std::vector<Case> all_cases() {
   sprung.springs = {{.name = "to_ground", .from = kGroundName, .to = "rod", .at = {0.1, -0.2, 0.3}, .to_at = {-0.1, 0.02, 0.01}, .stiffness = 300.0,
                      .damping = 20.0, .free_length = 0.1},
                     {.name = "back", .from = "rod", .to = "crank", .at = {-0.2, 0.05, 0.01}, .to_at = {0.03, 0.01, 0.02}, .stiffness = 150.0,
-                     .damping = 4.0, .free_length = 0.1},
+                     .damping = 4.0, .drag = 7.0, .free_length = 0.1},
                     {.name = "across", .from = "crank", .to = "slider", .at = {0.0, 0.0, 0.06}, .to_at = {0.05, 0.0, 0.0}, .stiffness = 200.0,
                      .damping = 5.0}};
   Linkage sprung_on_drive = make_screw();  // to a coordinate that moves with time alone
   sprung_on_drive.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
   sprung_on_drive.springs = {{.name = "pull", .from = kGroundName, .to = "nut", .at = {0.2, 0.1, -0.1}, .to_at = {0.05, 0.0, 0.02},
-                              .stiffness = 100.0, .damping = 3.0, .free_length = 0.05}};
+                              .stiffness = 100.0, .damping = 3.0, .drag = 2.0, .free_length = 0.05}};
   Linkage driven_screw = make_screw();
   driven_screw.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
   Linkage actuated = make_spatial_slider_crank(JointKind::kSpherical);  // a motor with a controller on the crank, a table over the slide

@@ -140,7 +140,7 @@ TEST(PointSpring, IsFeltByADrive) {
 TEST(PointSpring, KeepsTheEnergyAccountInALoop) {
   Linkage linkage = make_spatial_slider_crank(JointKind::kSpherical);
   linkage.springs = {{.name = "spring", .from = kGroundName, .to = "rod", .at = {0.1, -0.2, 0.3}, .to_at = {-0.1, 0.02, 0.01}, .stiffness = 300.0,
-                      .damping = 2.0, .free_length = 0.1},
+                      .damping = 2.0, .drag = 1.5, .free_length = 0.1},
                      {.name = "across", .from = "crank", .to = "slider", .at = {0.0, 0.0, 0.06}, .stiffness = 200.0}};
   const LinkageRun dopri5(linkage, accurate(0.5));
   EXPECT_LT(dopri5.metric("energy_imbalance_j"), 1e-7);
@@ -202,6 +202,53 @@ TEST(PointSpring, OfNoFreeLengthPassesThroughZero) {
       EXPECT_NEAR(run.column("block_m")[k], 0.2 * std::cos(10.0 * run.column("t_s")[k]), 2e-8) << k;
     EXPECT_LT(run.metric("energy_imbalance_j"), 1e-8);
   }
+}
+
+// m v' = -c v + m g: thrown along x, it falls along -y.
+TEST(PointDrag, SlowsAThrownBody) {
+  constexpr double kBall = 2.0, kDrag = 3.0, kThrown = 5.0, kWeight = 9.81, kEnd = 1.0;
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -kWeight, 0.0};
+  linkage.bodies = {make_body("ball", kBall, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3})};
+  linkage.joints = {{.name = "air", .kind = JointKind::kPlanar, .from = kGroundName, .to = "ball", .placement = {},
+                     .freedoms = {{.name = "x", .start_rate = kThrown}, {.name = "y"}, {.name = "turn"}}}};
+  linkage.springs = {{.name = "drag", .from = kGroundName, .to = "ball", .drag = kDrag}};
+  const double left = std::exp(-kDrag / kBall * kEnd), terminal = kBall * kWeight / kDrag;
+  for (const Integrator integrator : {Integrator::kDopri5, Integrator::kRadau5, Integrator::kRodas5}) {
+    RunOptions options = accurate(kEnd);
+    options.integrator = integrator;
+    const LinkageRun run(linkage, options);
+    EXPECT_NEAR(run.last("x_m_s"), kThrown * left, 1e-8);
+    EXPECT_NEAR(run.last("y_m_s"), -terminal * (1.0 - left), 1e-8);
+    const double kinetic = 0.5 * kBall * (std::pow(run.last("x_m_s"), 2) + std::pow(run.last("y_m_s"), 2));
+    EXPECT_NEAR(run.metric("structural_loss_j"),
+                0.5 * kBall * kThrown * kThrown - kBall * kWeight * run.last("y_m") - kinetic, 1e-6);
+    EXPECT_LT(run.metric("energy_imbalance_j"), 1e-6);
+  }
+}
+
+// I w' = -c r^2 w.
+TEST(PointDrag, SlowsATurningBodyByItsArm) {
+  constexpr double kArm = 0.4, kInertia = 0.5, kDrag = 2.0, kRate = 5.0;
+  Linkage linkage;
+  linkage.bodies = {make_body("arm", 1.0, {0.0, 0.0, 0.0}, {0.3, 0.3, kInertia})};
+  linkage.joints = {{.name = "arm", .from = kGroundName, .to = "arm", .placement = {},
+                     .freedoms = {{.name = "arm", .start_rate = kRate}}}};
+  linkage.springs = {{.name = "drag", .from = "arm", .to = kGroundName, .at = {kArm, 0.0, 0.0}, .to_at = {3.0, 0.0, 0.0}, .drag = kDrag}};
+  const LinkageRun run(linkage, accurate(1.0));
+  EXPECT_NEAR(run.last("arm_rad_s"), kRate * std::exp(-kDrag * kArm * kArm / kInertia), 1e-8);
+  EXPECT_NEAR(run.metric("peak_drag_tension_n"), 0.0, 0.0) << "along the spring there is none";
+}
+
+// The slide bears the moment of the force's arm.
+TEST(PointDrag, LoadsTheJointThatHoldsItsBody) {
+  constexpr double kArm = 0.05, kDrag = 2.0, kRate = 3.0;
+  Linkage linkage = make_block(0.3);
+  linkage.joints[0].freedoms[0].start_rate = kRate;
+  linkage.springs = {{.name = "drag", .from = kGroundName, .to = "block", .to_at = {0.0, kArm, 0.0}, .drag = kDrag}};
+  const LinkageRun run(linkage, accurate(0.1));
+  EXPECT_NEAR(run.column("block_m_s2").front(), -kDrag * kRate / 2.0, 1e-9);
+  EXPECT_NEAR(run.column("block_moment_z_n_m").front(), -kDrag * kRate * kArm, 1e-9);
 }
 
 }  // namespace
