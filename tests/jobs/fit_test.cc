@@ -111,7 +111,7 @@ ordered_json fit_request(const std::string& measurement) {
   return {
       {"name", "rig"},
       {"parameters", {{"run_up_s", 0.1}}},
-      {"budget", 400},
+      {"budget", 250},
       {"over", {{"clearance_mm", {{"from", 0.1}, {"to", 0.5}}}, {"restitution", {{"from", 0.6}, {"to", 1}}}}},
       {"measurements", {{{"id", measurement}}}}};
 }

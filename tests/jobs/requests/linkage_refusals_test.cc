@@ -172,7 +172,7 @@ constexpr Refusal kRefusals[] = {
      "/linkage/springs/rocker", "a joint rocker"},
     {"spring_that_is_none",
      R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "rocker"}}}])",
-     "/linkage/springs/stay", "a damping_n_s_m or both"},
+     "/linkage/springs/stay", "a damping_n_s_m or a drag_n_s_m"},
     {"spring_without_a_way",
      R"([{"op": "add", "path": "/linkage/springs", "value": {"stay": {"from": "ground", "to": "crank",
         "stiffness_n_m": 1,
