@@ -125,7 +125,8 @@ export class RequestForm {
       fault.hidden = text === "";
       input.setAttribute("aria-invalid", text === "" ? "false" : "true");
     } });
-    return h("div", { class: "field" }, labelled, h("span"), h("div", { class: "values" }, input, list),
+    return h("div", { class: known.length > 0 ? "field named" : "field" }, labelled, h("span"),
+      h("div", { class: "values" }, input, list),
       h("p", { class: "quiet small", id: `${id}-help` }, help), fault);
   }
 
