@@ -161,6 +161,10 @@ class LinkageChecker {
     if (!spring.contains("stiffness_n_m") && !spring.contains("damping_n_s_m") &&
         !spring.contains("drag_n_s_m"))
       fault(pointer, "must have a stiffness_n_m, a damping_n_s_m or a drag_n_s_m");
+    // Between bodies that turn as one it would brake them although nothing moves between them.
+    if (spring.contains("drag_n_s_m") && spring.value("from", json()) != engine::kGroundName &&
+        spring.value("to", json()) != engine::kGroundName)
+      fault(pointer + "/drag_n_s_m", "needs the ground at one end of the spring");
     for (const auto& [other, joint] : given_.at("joints").items())
       if (other == name) fault(pointer, "needs a name that is no joint's: there is a joint " + other);
   }

@@ -269,7 +269,8 @@ const LinkageFields& spring_fields() {
       {.key = "damping_n_s_m", .range = kNotNegative, .unit = "N s/m",
        .help = "Of the damper, along the spring; without it 0"},
       {.key = "drag_n_s_m", .range = kNotNegative, .unit = "N s/m",
-       .help = "Against the velocity of its ends to each other, whichever way; without it 0"},
+       .help = "Against the velocity of its end on a body, whichever way, if the other is on the ground; "
+               "without it 0"},
       {.key = "free_length_m", .range = between(0, 1000), .unit = "m",
        .help = "At which the spring is unloaded; without it the distance of its ends at t = 0"},
   };

@@ -51,7 +51,7 @@ class SearchParser : private RequestParser {
     const std::string pointer = "/over" + pointer_token(path);
     if (!is_known_path(path, pointer, faults_)) return;
     if (!is_numeric(path)) return fault(pointer, "must be a parameter whose values are numbers");
-    if (is_path_in_description(path) &&
+    if (common_is_read_ && is_path_in_description(path) &&
         !is_right(pointer, describe_description_path_fault(search_.common.parameters, path)))
       return;
     search_.parameter = path;
@@ -125,6 +125,7 @@ class SearchParser : private RequestParser {
   void read_common() {
     try {
       search_.common = parse_sweep_request(parts_of(kKeysOfItsSweeps), max_jobs_);
+      common_is_read_ = true;
       add_metrics(search_.common.parameters);
     } catch (const InvalidRequest& invalid) {
       add_faults(invalid);
@@ -154,6 +155,7 @@ class SearchParser : private RequestParser {
   std::size_t max_jobs_;
   SearchRequest search_;
   std::vector<std::string> metrics_;  ///< of the linkage; empty if it has faults
+  bool common_is_read_ = false;
   bool interval_is_valid_ = false;
 };
 
@@ -161,7 +163,8 @@ class SearchParser : private RequestParser {
 std::string pointer_in_search(const std::string& pointer, const SearchRequest& search) {
   if (!pointer.starts_with("/cases/")) return pointer;
   const std::string path = path_in_case(pointer);
-  return (path == search.parameter ? "/over" : "/sweep") + (path.empty() ? "" : pointer_token(path));
+  const bool is_over = path == search.parameter || search.common.axes.empty();
+  return (is_over ? "/over" : "/sweep") + (path.empty() ? "" : pointer_token(path));
 }
 
 }  // namespace

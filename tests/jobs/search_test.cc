@@ -358,6 +358,10 @@ TEST(Search, OfADescribedLinkageIsRefusedWithEveryFault) {
   request = request_over_a_pendulum();
   request["sweep"] = {{"linkage.bodies.rod.mass_kg", {1, 2}}};
   EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/linkage.bodies.rod.mass_kg"});
+  request = request_over_a_pendulum();
+  request["replicates"] = {{"count", 0}};
+  EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/replicates/count"});
+  request = request_over_a_pendulum();
   request["over"] = {{"linkage.bodies.rod.length", {{"from", 1}, {"to", 9}}}};
   request.erase("sweep");
   EXPECT_EQ(search_faults_of(service, request), std::set<std::string>{"/over/linkage.bodies.rod.length"})
