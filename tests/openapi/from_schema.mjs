@@ -54,7 +54,8 @@ export function fromSchema(given, resolve) {
     case "integer": return integerOf(schema);
     case "boolean": return fc.boolean();
     case "null": return fc.constant(null);
-    case "string": return schema.pattern ? fc.stringMatching(new RegExp(schema.pattern)) : fc.string({ maxLength: schema.maxLength ?? 20, unit: "grapheme" });
+    // Names that only a service knows, such as those of metrics, are among the examples.
+    case "string": return schema.examples ? fc.constantFrom(...schema.examples) : schema.pattern ? fc.stringMatching(new RegExp(schema.pattern)) : fc.string({ maxLength: schema.maxLength ?? 20, unit: "grapheme" });
     case "array": return fc.array(fromSchema(schema.items, resolve), { minLength: schema.minItems ?? 0, maxLength: schema.maxItems ?? largestList });
     case "object": return objectOf(schema, resolve);
     default: throw new Error(`a schema that is not understood: ${JSON.stringify(schema)}`);
