@@ -13,9 +13,9 @@ using BlockInstants = std::array<double, kBlockSteps + 1>;  ///< [s]
 /// Part of the time by which two instants may differ and be the same.
 inline constexpr double kSameInstant = 1e-12;
 
-/// Instants of a block of steps no longer than `step`. They lie on the grid of milliseconds times a power of
-/// two: common output rates find their samples on it, and steps do not depend on the output rate. Worked
-/// cases:
+/// Instants of a block of steps of about `step`, at most. They lie on the grid of milliseconds times a power
+/// of two, or lead to it: common output rates find their samples on it, and steps do not depend on the output
+/// rate. Worked cases:
 ///
 ///     start 6 ms, step 2.5 ms, limit far: the grid is that of 2 ms, and start is on it.
 ///       6, 8, 10, 12, 14 ms

@@ -321,8 +321,7 @@ ordered_json request_over_a_pendulum() {
           {"bound", 2.5}};
 }
 
-// Of a linkage that is described: a number of its description, for each value of another one, by a metric of
-// its own.
+// Numbers of a description are searched for each value of another parameter, by a metric of the linkage.
 TEST(Search, LooksForTheLimitOfANumberOfADescription) {
   const TemporaryStore store;
   jobs::ServiceOptions options = options_of(store, 2);

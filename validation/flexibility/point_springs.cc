@@ -101,7 +101,7 @@ double find_bar_angle(double t) {
   return a;
 }
 
-/// Of 2 kg in a plane, thrown along x, with drag at its origin: m v' = -c v + m g.
+/// Body of 2 kg in a plane, thrown along x, with drag at its origin: m v' = -c v + m g.
 constexpr double kThrownMass = 2.0, kDrag = 3.0, kThrown = 5.0;
 Linkage make_thrown_body() {
   Linkage linkage;
@@ -175,8 +175,8 @@ Findings compute_thrown_body() {
     findings.checks.push_back(compare("horizontal velocity" + by, "v_0 exp(-c t / m)",
                                       column(run, "x_m_s").back(), kThrown * left, 1e-8, "m/s", why));
     findings.checks.push_back(compare("fall" + by, "(m g / c) (t - (m / c) (1 - exp(-c t / m)))",
-                                      -column(run, "y_m").back(), terminal * (kEnd - (1.0 - left) / rate), 1e-8,
-                                      "m", why));
+                                      -column(run, "y_m").back(),
+                                      terminal * (kEnd - (1.0 - left) / rate), 1e-8, "m", why));
   }
   return findings;
 }

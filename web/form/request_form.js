@@ -99,7 +99,8 @@ export class RequestForm {
   }
 
   /// A value with help below it, and a place for its fault.
-  /// @param name  of the row  @param options  to choose among; null: any text  @param known  texts that are proposed
+  /// @param name  of the row  @param options  to choose among; null: any text
+  /// @param known  texts that are proposed
   /**
    * @param {string} name
    * @param {string} label
