@@ -101,7 +101,8 @@ expect_text err "^rpsup: extend $job: is no id of a sweep$"
 echo '{"parameters": {"duration_s": 3600, "output_rate_hz": 10}, "sweep": {"clearance_mm": [0.3, 0.4, 0.5]}}' >long.json
 long=$("$rpsup" submit long.json)
 if command -v script >/dev/null; then
-  script --quiet --return --command "stty cols 70 rows 24; $rpsup watch $long" terminal </dev/null >/dev/null &
+  # script(1) writes late without --flush, and can lose what a program prints as its last.
+  script --quiet --flush --return --command "stty cols 70 rows 24; $rpsup watch $long; code=\$?; sleep 0.3; exit \$code" terminal </dev/null >/dev/null &
   watcher=$!
   for ((tenths = 0; tenths < 100; ++tenths)); do
     ! grep -q 'job_.*  clearance_mm 0\.' terminal 2>/dev/null || break
