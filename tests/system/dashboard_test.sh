@@ -4,7 +4,7 @@
 #   dashboard_test.sh RPSUP TESTS/WEB/VISIT.mjs FOLDER
 source "$(dirname "${BASH_SOURCE[0]}")/helpers.sh"
 [ -d "$(dirname "$2")/../node_modules" ] || fail "the npm packages of tests/ are missing: script/setup fetches them"
-[ -x /usr/bin/chromium ] || fail "chromium is missing: script/setup installs it"
+[ -x /usr/bin/chromium-headless-shell ] || fail "chromium-headless-shell is missing: script/setup installs it"
 
 mkdir -p "$3"
 start_service dashboard.db

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visits the dashboard with Debian's Chromium as a user would, and notes whatever a user should never meet.
+// Visits the dashboard with Debian's Chromium, without its windows, as a user would, and notes whatever a user should never meet.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -17,7 +17,7 @@ let browser = null;
 /** Opens a page at a view such as "#/new". @param options  of Playwright's new context: viewport, colorScheme */
 export async function visit(view, options = {}) {
   // As root, as in a container, Chromium does not start in its sandbox; it only ever sees the service under test.
-  browser ??= chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+  browser ??= chromium.launch({ executablePath: "/usr/bin/chromium-headless-shell", args: ["--no-sandbox"] });
   const context = await (await browser).newContext({ viewport: { width: 1360, height: 1000 }, acceptDownloads: true, locale: "en-GB", ...options });
   context.setDefaultTimeout(120_000);  // a machine may be busy
   const page = await context.newPage();
