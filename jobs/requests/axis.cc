@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/parameter_table.h"
@@ -134,6 +135,16 @@ bool is_numeric(const std::string& path) {
   const ParameterInfo* info = find_parameter(path);
   return info != nullptr ? info->kind != ParameterKind::kChoice
                          : is_path_in_description(path) || path.ends_with("mass_kg");
+}
+
+bool is_integer(const std::string& path) {
+  const std::string key = is_path_in_description(path) ? path.substr(path.rfind('.') + 1) : path;
+  const ParameterInfo* info = find_parameter(key);
+  if (info != nullptr) return info->kind == ParameterKind::kInteger;
+  const LinkageFields& beam = beam_fields();
+  return key != path && std::ranges::any_of(beam, [&](const LinkageField& field) {
+    return field.key == key && field.kind == FieldKind::kInteger;
+  });
 }
 
 std::string value_identity(const std::string& path, const json& value) {

@@ -33,6 +33,9 @@ enum class Repeats { kRefused, kAllowed };
 /// Whether a path's values are single numbers. @param path  a known one
 [[nodiscard]] bool is_numeric(const std::string& path);
 
+/// Whether a path's values are whole numbers, of a parameter or in a description. @param path  a known one
+[[nodiscard]] bool is_integer(const std::string& path);
+
 /// A value in the form in which equal values are equal: 5 and 5.0 are one number. @param value  has no faults
 [[nodiscard]] std::string value_identity(const std::string& path, const nlohmann::json& value);
 

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/span.h"
 #include "jobs/requests/axis.h"
@@ -24,11 +23,6 @@ using nlohmann::ordered_json;
 constexpr std::uint64_t kDefaultSeed = 1;
 /// What no count of points reaches
 constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
-
-bool is_integer(const std::string& path) {
-  const ParameterInfo* info = find_parameter(path);
-  return info != nullptr && info->kind == ParameterKind::kInteger;
-}
 
 /// Adds the faults of both ends of a range. Returns whether there are none.
 bool check_range(const std::string& path, const json& given, std::vector<Fault>& faults) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/axis.h"
 #include "jobs/requests/parameter_path.h"
@@ -62,9 +61,7 @@ std::optional<Variable> read_variable(const std::string& path, const json& given
     if (given.contains(end)) check_value(path, given.at(end), pointer + "/" + end, faults);
   }
   if (faults.size() > before) return std::nullopt;
-  const ParameterInfo* const info = find_parameter(path);
-  Variable variable{
-      .path = path, .span = *span, .integer = info != nullptr && info->kind == ParameterKind::kInteger};
+  Variable variable{.path = path, .span = *span, .integer = is_integer(path)};
   if (given.contains("start")) {
     variable.start = given.at("start").get<double>();
     if (*variable.start < span->from || *variable.start > span->to)

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "jobs/linkages/linkage_json.h"
-#include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/span.h"
 #include "jobs/requests/axis.h"
@@ -76,11 +75,10 @@ class SearchParser : private RequestParser {
     for (const char* const end : {"from", "to"}) check_end(given.at(end), pointer + "/" + end);
     if (span->from == span->to) fault(pointer + "/to", "must differ from from");
     if (faults_.size() > before) return;
-    const ParameterInfo* const info = find_parameter(search_.parameter);
     search_.interval = {.from = span->from,
                         .to = span->to,
                         .logarithmic = span->logarithmic,
-                        .integer = info != nullptr && info->kind == ParameterKind::kInteger,
+                        .integer = is_integer(search_.parameter),
                         .tolerance = given.value("tolerance", 0.01 * std::abs(span->to - span->from)),
                         .first = given.value("first", kDefaultFirst)};
     interval_is_valid_ = true;

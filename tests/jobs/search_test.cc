@@ -344,6 +344,28 @@ TEST(Search, LooksForTheLimitOfANumberOfADescription) {
   EXPECT_EQ(ended.at("parameter"), "linkage.bodies.rod.mass_kg");
 }
 
+// A search halves its interval: of whole numbers it looks at those beside the middle.
+TEST(Search, LooksAtWholeNumbersOfADescription) {
+  const TemporaryStore store;
+  jobs::ServiceOptions options = options_of(store, 2);
+  options.runner = [](const jobs::JobSpec& spec, const engine::StopQuery&, const auto&...) {
+    engine::RunResult result;
+    result.metrics.assign(engine::linkage_tables(spec.linkage.value()).metrics.size(),
+                          spec.linkage->bodies.at(0).elements);
+    return result;
+  };
+  jobs::Service service(options);
+  ordered_json request = request_over_a_pendulum();
+  request["parameters"]["linkage"]["bodies"]["rod"] = {
+      {"mass_kg", 1}, {"beam", {{"length_m", 1}, {"diameter_mm", 9}}}};
+  request["over"] = {{"linkage.bodies.rod.beam.elements", {{"from", 2}, {"to", 20}, {"tolerance", 0.5}}}};
+  request["bound"] = 6.5;
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended;
+  EXPECT_EQ(ended.at("limits").at(0).at("limit"), 6) << ended;
+  EXPECT_EQ(ended.at("limits").at(0).at("limit_beyond"), 7) << ended;
+}
+
 TEST(Search, OfADescribedLinkageIsRefusedWithEveryFault) {
   const TemporaryStore store;
   FakeEngine engine;
