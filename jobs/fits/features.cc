@@ -68,13 +68,6 @@ std::vector<double> calc_bands(std::span<const double> y, double rate, const Fea
 
 }  // namespace
 
-std::vector<std::string> feature_names(const FeatureOptions& options) {
-  std::vector<std::string> names{"peak_mean", "peak_q10",          "peak_q50",     "peak_q90",
-                                 "rms",       "impacts_per_cycle", "envelope_q50", "envelope_q95"};
-  for (std::size_t k = 0; k < options.bands; ++k) names.push_back("band_" + std::to_string(k) + "_rms");
-  return names;
-}
-
 std::vector<double> calc_features(std::span<const double> t, std::span<const double> y,
                                   const FeatureOptions& options) {
   engine::require(t.size() >= 2 && t.size() == y.size(), "t", "two samples or more, as many as of y");

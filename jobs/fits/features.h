@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace jobs {
@@ -16,13 +15,11 @@ struct FeatureOptions {
   std::size_t bands = 0;        ///< octaves
 };
 
-/// Names of calc_features(): peak_mean, peak_q10, peak_q50, peak_q90, rms, impacts_per_cycle, envelope_q50,
-/// envelope_q95, then band_0_rms and so on.
-[[nodiscard]] std::vector<std::string> feature_names(const FeatureOptions& options);
-
 /// Features of a signal whose samples do not repeat while their distribution does. Peaks are the largest
 /// magnitudes of whole cycles, and the envelope is the largest magnitude of each eighth of a cycle. Bands
 /// hold the RMS within an octave by Welch's method (1967): segments with a Hann window that overlap by half.
+/// @returns mean, 10, 50 and 90 % quantile of the peaks; RMS; impacts per cycle; 50 and 95 % quantile of the
+///          envelope; RMS of each band
 /// @param t  ascending, evenly spaced, at least one cycle  @param y  as many
 [[nodiscard]] std::vector<double> calc_features(std::span<const double> t, std::span<const double> y,
                                                 const FeatureOptions& options);

@@ -95,8 +95,6 @@ FitObserver::FitObserver(std::shared_ptr<const FitProblem> problem, const SweepR
     const auto y = interpolate(signal.measured.t, signal.measured.y, times, Interpolation::kLinear);
     const std::vector<double> features = calc_features(times, y.value(), options_of(signal));
     measured_features_.insert(measured_features_.end(), features.begin(), features.end());
-    for (const std::string& name : feature_names(options_of(signal)))
-      feature_names_.push_back(signal.channel + "." + name);
   }
 }
 

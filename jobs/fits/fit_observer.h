@@ -63,7 +63,6 @@ class FitObserver {
   [[nodiscard]] std::vector<double> scale_signals(std::vector<double> residuals,
                                                   const std::vector<double>& factors) const;
   [[nodiscard]] const std::vector<double>& measured_features() const { return measured_features_; }
-  [[nodiscard]] const std::vector<std::string>& names_of_features() const { return feature_names_; }
 
   /// Whole signal. @returns empty as observe() does
   [[nodiscard]] std::optional<Prediction> predict(const FitSignal& signal, const FitPoint& point,
@@ -85,7 +84,6 @@ class FitObserver {
   std::shared_ptr<const FitProblem> problem_;
   const SweepReader& reader_;
   std::vector<double> measured_features_;
-  std::vector<std::string> feature_names_;
 };
 
 }  // namespace jobs

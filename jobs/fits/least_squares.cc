@@ -2,7 +2,6 @@
 #include "jobs/fits/least_squares.h"
 
 #include <algorithm>
-#include <array>
 
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
@@ -119,12 +118,6 @@ void set_end(const ceres::Solver::Summary& summary, const FitPath& path, LeastSq
 }
 
 }  // namespace
-
-std::string_view fit_end_name(FitEnd end) {
-  constexpr std::array<std::string_view, 6> kNames{"converged",    "most_evaluations", "most_iterations",
-                                                   "start_failed", "no_derivative",    "beside_failures"};
-  return kNames[static_cast<std::size_t>(end)];
-}
 
 LeastSquaresAnswer solve_least_squares(const LeastSquaresProblem& problem, const Evaluations& evaluations) {
   FitPath path(problem, evaluations);

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,7 +42,6 @@ enum class FitEnd {
   kNoDerivative,    ///< the simulations beside a point fail on both sides
   kBesideFailures,  ///< the last steps led to points at which the simulation fails
 };
-[[nodiscard]] std::string_view fit_end_name(FitEnd end);
 
 struct LeastSquaresResult {
   FitEnd end = FitEnd::kConverged;
