@@ -245,6 +245,25 @@ TEST(PolynomialDrive, HasCoefficientsOfThePosition) {
   }
 }
 
+// The drive works against the mass and the drag, whichever way from the ground the spring points.
+TEST(LinkageSprings, DragABodyThatIsDriven) {
+  const json driven = json_of(
+      R"({"duration_s": 0.2, "output_rate_hz": 100, "linkage": {"bodies": {"b": {"mass_kg": 2}},
+    "joints": {"j": {"kind": "prismatic", "axis": "y", "from": "ground", "to": "b",
+         "drive": {"law": "harmonic", "amplitude_m": 0.1, "frequency_hz": 5}}},
+    "springs": {"air": {"from": "ground", "at_m": [1, 0, 0], "to": "b", "drag_n_s_m": 3}}},
+    "gravity_m_s2": 0})");
+  const engine::RunResult result = run(driven);
+  ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
+  const std::vector<double> t = column(result.trajectory, "t_s");
+  ASSERT_EQ(t.size(), 21U);
+  const double omega = 10.0 * std::numbers::pi;
+  for (std::size_t k = 0; k < t.size(); ++k)
+    EXPECT_NEAR(column(result.trajectory, "j_drive_n")[k],
+                0.1 * omega * (3.0 * std::cos(omega * t[k]) - 2.0 * omega * std::sin(omega * t[k])), 1e-9)
+        << t[k];
+}
+
 TEST(LinkageSprings, AreSweptAndLeaveChannelsAndPeaks) {
   json given = example("four_bar");
   given["duration_s"] = 0.05;
