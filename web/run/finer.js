@@ -13,7 +13,7 @@ const pollMs = 500;
 
 /// Rate at which the stretch has enough samples, in steps of 1, 2 and 5; 0: the job's own rate gives as many.
 /** @param {Pick<TimeWindow, "from" | "to">} stretch  @param {number} own  the job's rate [Hz] */
-export function finerRate({ from, to }, own) {
+function finerRate({ from, to }, own) {
   const most = Math.min(mostHz, mostSamples / to);
   const wanted = Math.min(samplesInSight / (to - from), most);
   const decade = 10 ** Math.floor(Math.log10(wanted));

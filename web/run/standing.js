@@ -34,7 +34,7 @@ export function standingCard() {
 
 /// [what, how it is] of a job; why it failed stands above it.
 /** @param {Api.Job} job  @param {Api.Sweep | null} sweep  @param {Date} now  @returns {string[][]} */
-export function standingRows(job, sweep, now) {
+function standingRows(job, sweep, now) {
   const { state, error, created_at: created, started_at: started, ended_at: ended, attempts } = job;
   return [["State", state],
     typeof error?.t_s === "number"

@@ -57,7 +57,7 @@ function failureSentence({ rows, failures }) {
 
 /// Sets of replicates with two values at least.
 /** @param {SweepPage} sweep */
-export function replicateSets({ rows, axes, view: { metric } }) {
+function replicateSets({ rows, axes, view: { metric } }) {
   /** @type {Map<string, Api.Row[]>} */
   const sets = new Map();
   for (const row of rows) {

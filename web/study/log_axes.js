@@ -7,7 +7,7 @@ import { spansDecades } from "/study/span.js";
 
 /// The axes that may be logarithmic.
 /** @param {Pick<SweepPage, "rows" | "others" | "view">} sweep */
-export function offeredLogs({ rows, others, view }) {
+function offeredLogs({ rows, others, view }) {
   const both = others ? [rows, others.rows] : [rows];
   const metrics = both.flat().map((row) => row[view.metric]).filter((value) => value !== null && value !== undefined);
   return { x: spansDecades(both.flatMap((some) => valuesOf(some, view.x))), metric: spansDecades(metrics) };
