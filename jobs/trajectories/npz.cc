@@ -150,10 +150,10 @@ class NpzText final : public TrajectoryText {
  private:
   /// False after the last values.
   bool read(ColumnCursor& column) {
-    constexpr std::size_t kValuesAtATime = 16 * 1024;
+    constexpr std::size_t kValuesAChunk = 16 * 1024;
     values_.clear();
-    column.append_next(kValuesAtATime, values_);
-    return values_.size() == kValuesAtATime;
+    column.append_next(kValuesAChunk, values_);
+    return values_.size() == kValuesAChunk;
   }
 
   void begin_column(std::string& to) {
