@@ -79,6 +79,11 @@ get() {
   curl --silent --show-error --fail-with-body --max-time 20 "$@"
 }
 
+# has_terminals: script(1) is there, and can make a terminal; a system in another's root may have none
+has_terminals() {
+  command -v script >/dev/null && script --quiet --return --command true /dev/null </dev/null >/dev/null 2>&1
+}
+
 # status_of CURL-ARGUMENTS...: the status alone
 status_of() {
   curl --silent --max-time 20 --output /dev/null --write-out '%{http_code}' "$@"

@@ -100,7 +100,7 @@ expect_text err "^rpsup: extend $job: is no id of a sweep$"
 # Cancelled, then tried again. Cancelled and failed jobs leave the bar open.
 echo '{"parameters": {"duration_s": 3600, "output_rate_hz": 10}, "sweep": {"clearance_mm": [0.3, 0.4, 0.5]}}' >long.json
 long=$("$rpsup" submit long.json)
-if command -v script >/dev/null; then
+if has_terminals; then
   # script(1) writes late without --flush, and can lose what a program prints as its last.
   script --quiet --flush --return --command "stty cols 70 rows 24; $rpsup watch $long; code=\$?; sleep 0.3; exit \$code" terminal </dev/null >/dev/null &
   watcher=$!
@@ -116,7 +116,7 @@ expect_code 2 "$rpsup" move "$long"
 expect_code 2 "$rpsup" delete "$long"
 expect_text err '^rpsup: the sweep has not ended'
 expect_code 0 "$rpsup" cancel "$long"
-if command -v script >/dev/null; then
+if has_terminals; then
   code=0
   wait "$watcher" || code=$?
   expect_equal "$code" 1 "exit code of a watch over a cancelled sweep"

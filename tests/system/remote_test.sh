@@ -35,7 +35,7 @@ expect_equal "$(jq -r .id out)" "$id" "the resource as JSON"
 # From standard input, to its end. The bar of a terminal is drawn over itself; `script` makes one.
 expect_code 0 "$rpsup" submit - --watch <sweep.json
 expect_text err ' succeeded$'
-if command -v script >/dev/null; then
+if has_terminals; then
   script --quiet --return --command "$rpsup watch $id" terminal </dev/null >/dev/null
   grep -qF '[##############################] 100 %  4 of 4 jobs' terminal || fail "no bar on a terminal"
 fi
@@ -52,7 +52,7 @@ expect_code 0 "$rpsup" status "$forged"
 grep -qF "$shown" out || fail "the name is not shown as text: $(cat -v out)"
 expect_code 0 "$rpsup" status "$forged" --json
 expect_equal "$(jq -r .name out | tail -n 1 | cut -c1-13)" 'swp_0  failed' "the name in the JSON, as it was sent"
-if command -v script >/dev/null; then
+if has_terminals; then
   script --quiet --return --command "$rpsup status $forged --json" terminal </dev/null >/dev/null
   if grep -qP '\xc2\x9b' terminal; then fail "a control character of the JSON has reached the terminal"; fi
 fi
