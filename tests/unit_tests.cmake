@@ -12,7 +12,11 @@ function(add_unit_tests program shards)
   else()
     set(filter *)
   endif()
-  gtest_discover_tests(${program} TEST_PREFIX "${arg_PREFIX}" TEST_FILTER ${filter} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+  set(prefix)
+  if(arg_PREFIX)
+    set(prefix TEST_PREFIX ${arg_PREFIX})
+  endif()
+  gtest_discover_tests(${program} ${prefix} TEST_FILTER ${filter} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS unit TIMEOUT 300)
   math(EXPR last "${shards} - 1")
   foreach(shard RANGE ${last})
