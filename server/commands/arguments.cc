@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <iterator>
 #include <string_view>
 
@@ -55,6 +56,16 @@ void check_command(const CLI::App& app, const std::string& name) {
   throw BadInput("there is no command " + name + "; " + suggest(name, names, "rpsup --help"));
 }
 
+/// Empty if the option takes the value.
+std::string describe_value_fault(CLI::Option& option, const std::string& value) {
+  try {
+    for (int k = 0;; ++k)
+      if (std::string fault = (*option.get_validator(k))(value); !fault.empty()) return fault;
+  } catch (const CLI::OptionNotFound&) {
+    return "";  // of a check after the last
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> arrange_arguments(const CLI::App& app, std::vector<std::string> words) {
@@ -95,6 +106,17 @@ std::string describe_unknown_option(const CLI::App& app, const std::string& word
   }
   return "there is no option " + name + " of " + place + "; " +
          suggest(name, known, help + " --help");
+}
+
+void check_environment(CLI::App& app) {
+  for (CLI::Option* const option : app.get_options()) {
+    const std::string variable = option->get_envname();
+    const char* const value = variable.empty() ? nullptr : std::getenv(variable.c_str());
+    if (value == nullptr || *value == '\0' || option->count() > 0) continue;
+    if (const std::string fault = describe_value_fault(*option, value); !fault.empty())
+      throw BadInput(option->get_name() + " (" + variable + "): " + fault);
+  }
+  for (CLI::App* const command : app.get_subcommands()) check_environment(*command);
 }
 
 bool is_given(const std::vector<std::string>& words, const std::string& option) {

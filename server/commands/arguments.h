@@ -21,6 +21,11 @@ namespace server::commands {
 /// @param word  the option, perhaps with its value
 [[nodiscard]] std::string describe_unknown_option(const CLI::App& app, const std::string& word);
 
+/// Refuses a variable of the environment that its option does not take: CLI11 passes over it from 2.4 on.
+/// @param app  that has parsed a command
+/// @throws BadInput
+void check_environment(CLI::App& app);
+
 /// Whether an option stands on the command line, with or without its value in the same word.
 [[nodiscard]] bool is_given(const std::vector<std::string>& words, const std::string& option);
 

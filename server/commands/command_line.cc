@@ -337,8 +337,9 @@ int run_command_line(int argc, char** argv) {
     return run_guarded([&]() -> int { throw error; });
   } catch (const CLI::ParseError& error) {
     if (tell_unknown_option(app)) return kBadInput;
-    const bool is_help = app.exit(error) == 0;
     return run_guarded([&]() -> int {
+      if (error.get_exit_code() != 0) check_environment(app);
+      const bool is_help = app.exit(error) == 0;
       if (is_help) check_standard_output();
       return is_help ? kDone : kBadInput;
     });
@@ -348,6 +349,7 @@ int run_command_line(int argc, char** argv) {
   return run_guarded([&] {
     if (parsed == commands.end())
       throw BadInput("validate must be the first word: rpsup-validate reads the others");
+    check_environment(app);
     check_outputs(app, *parsed->line);
     check_processor();
     enter_numerics(numerics, argv);
