@@ -14,6 +14,9 @@ def subjects: [
   ["Run, integration and output", "^(duration_s|output_rate_hz|keep|integrator|step_s|.*_tolerance)$"]];
 def subject_of($key): first(subjects[] | . as [$title, $pattern] | select($key | test($pattern)) | $title) // error("\($key) belongs to no subject");
 
+# jq writes numbers as they stood in the JSON, 100.0, from 1.7 on, unless something is computed with them.
+def plain: walk(if type == "number" then . + 0 else . end);
+
 def range:
   if .oneOf and has("default") then "`rpsup`, or an object that describes another: [linkages](../linkages/README.md)"
   elif .oneOf then "an object with a `law` or an `actuator`: [laws](../linkages/README.md#joints), [actuators](../linkages/README.md#actuators-and-loads)"
@@ -24,7 +27,7 @@ def range:
   end;
 def row($key): "| `\($key)` | \(if has("default") then .default | tojson | gsub("\""; "") else "–" end) | \(.["x-unit"] // "") | \(range) | \(.description) | \(.["x-default-source"] // "–") |";
 
-[(.properties | to_entries[] | select(.key != "links") | .key as $key | .value | {key: $key, row: row($key)}),
+plain | [(.properties | to_entries[] | select(.key != "links") | .key as $key | .value | {key: $key, row: row($key)}),
  (.properties.links.properties | to_entries[] | .key as $link | .value.properties | to_entries[]
   | "links.\($link).\(.key)" as $key | .value
   | if .type == "array" then .default as $d | .items as $i | . + $i | .default = $d else . end | {key: $key, row: row($key)})]
