@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "jobs/base/program_info.h"
+#include "server/commands/arguments.h"
 #include "server/commands/command.h"
 #include "server/commands/numerics.h"
 #include "validation/program/validate.h"
@@ -48,6 +49,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? server::commands::kDone : server::commands::kBadInput;
   }
   return server::commands::run_guarded([&] {
+    server::commands::check_environment(app);
     server::commands::check_processor();
     return validate(options);
   });

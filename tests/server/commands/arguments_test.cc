@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/arguments.h"
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,25 @@ TEST(Arguments, AreGivenInOneWordOrTwo) {
   EXPECT_TRUE(is_given({"a", "--db", "x"}, "--db"));
   EXPECT_TRUE(is_given({"--db=x"}, "--db"));
   EXPECT_FALSE(is_given({"--dbx", "x"}, "--db"));
+}
+
+// Newer parsers leave an option without a value where the environment has a wrong one.
+TEST(Arguments, OfTheEnvironmentAreRefusedIfTheirOptionsDoNotTakeThem) {
+  CLI::App app{"", "program"};
+  int threads = 2;
+  app.add_option("--threads", threads, "")->check(CLI::Range(1, 256))->envname("RPSUP_TEST_THREADS");
+  ::setenv("RPSUP_TEST_THREADS", "300", 1);
+  try {
+    server::commands::check_environment(app);
+    ADD_FAILURE() << "300 threads are taken";
+  } catch (const BadInput& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("--threads (RPSUP_TEST_THREADS): ")) << error.what();
+  }
+  for (const char* const value : {"3", ""}) {
+    ::setenv("RPSUP_TEST_THREADS", value, 1);
+    EXPECT_NO_THROW(server::commands::check_environment(app)) << value;
+  }
+  ::unsetenv("RPSUP_TEST_THREADS");
 }
 
 }  // namespace
