@@ -81,7 +81,12 @@ get() {
 
 # has_terminals: script(1) is there, and can make a terminal; a system in another's root may have none
 has_terminals() {
-  command -v script >/dev/null && script --quiet --return --command true /dev/null </dev/null >/dev/null 2>&1
+  if [ -z "${terminals:-}" ]; then
+    terminals=no
+    if command -v script >/dev/null && script --quiet --return --command true /dev/null </dev/null >/dev/null 2>&1; then terminals=yes; fi
+    [ "$terminals" = yes ] || echo "left out: no terminal can be made, so nothing is shown on one"
+  fi
+  [ "$terminals" = yes ]
 }
 
 # status_of CURL-ARGUMENTS...: the status alone

@@ -17,7 +17,7 @@ jq -cn 'first(inputs | select(.status == 201) | .status = 202)' exchanges.ndjson
 jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz" and .status == 200) | .body = "{\"status\": 1}")' exchanges.ndjson >>wrong
 jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz" and .status == 200) | .headers["x-more"] = "1")' exchanges.ndjson >>wrong
 expect_equal "$(wc -l <wrong)" 3 "answers to spoil"
-{ head -n 100 exchanges.ndjson && cat wrong; } >spoilt
+cat exchanges.ndjson wrong >spoilt
 expect_code 1 node "$3/check_exchanges.mjs" openapi.json spoilt
 expect_text out '202 is none of the responses of post /v1/'
 expect_text out '/status must be string'
