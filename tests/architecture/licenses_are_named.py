@@ -69,7 +69,8 @@ def compiled_in(build):
             if own and line.strip().startswith("/usr/"):
                 paths.add(line.strip())
         else:
-            own = re.match(r"(?!tests/)\S+\.o: ", line) is not None  # from CMake 3.27 on programs have such lines, too
+            # From CMake 3.27 on programs have such lines, too.
+            own = re.match(r"(?!tests/)\S+\.o: ", line) is not None
     link = run("ninja", "-C", str(build), "-t", "commands", "-s", "rpsup")
     paths |= set(re.findall(r"/usr/\S+\.a\b", link))
     found = run("dpkg-query", "--search", *sorted(paths)).splitlines() if paths else []

@@ -77,6 +77,19 @@ TEST(LinkageExamples, HaveTheirJointsAndFreedoms) {
       jobs::run_job(bricard, [](double) { return false; }).job.at("metrics").at("redundant_constraints"), 1);
 }
 
+constexpr double kOmega = 10.0 * std::numbers::pi;  // [rad/s], of the harmonic drives of joint j below
+
+/// @param force  of the drive at a phase, [N]
+template <typename Force>
+void expect_drive_force(const json& driven, const Force& force) {
+  const engine::RunResult result = run(driven);
+  ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
+  const std::vector<double> t = column(result.trajectory, "t_s");
+  const std::vector<double> found = column(result.trajectory, "j_drive_n");
+  ASSERT_EQ(t.size(), 21U);
+  for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(found[k], force(kOmega * t[k]), 1e-9) << t[k];
+}
+
 // Nothing is left to solve for: the force of the drive is m (a - g), which for a harmonic motion along y is
 // known.
 TEST(LinkageWithoutUnknowns, FollowsItsDrives) {
@@ -86,15 +99,9 @@ TEST(LinkageWithoutUnknowns, FollowsItsDrives) {
     "joints": {"j": {"kind": "prismatic", "axis": "y", "from": "ground", "to": "b",
          "drive": {"law": "harmonic", "amplitude_m": 0.1,
     "frequency_hz": 5}}}}})");
-  const engine::RunResult result = run(driven);
-  ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
-  const std::vector<double> t = column(result.trajectory, "t_s");
-  ASSERT_EQ(t.size(), 21U);
-  const double omega = 10.0 * std::numbers::pi;
-  for (std::size_t k = 0; k < t.size(); ++k)
-    EXPECT_NEAR(column(result.trajectory, "j_drive_n")[k],
-                2.0 * (10.0 - 0.1 * omega * omega * std::sin(omega * t[k])), 1e-9)
-        << t[k];
+  expect_drive_force(driven, [](double phase) {
+    return 2.0 * (10.0 - 0.1 * kOmega * kOmega * std::sin(phase));
+  });
 }
 
 TEST(LinkageWithoutUnknowns, StandsStillIfItIsWelded) {
@@ -253,15 +260,9 @@ TEST(LinkageSprings, DragABodyThatIsDriven) {
          "drive": {"law": "harmonic", "amplitude_m": 0.1, "frequency_hz": 5}}},
     "springs": {"air": {"from": "ground", "at_m": [1, 0, 0], "to": "b", "drag_n_s_m": 3}}},
     "gravity_m_s2": 0})");
-  const engine::RunResult result = run(driven);
-  ASSERT_EQ(result.status, engine::RunStatus::kSucceeded) << result.detail;
-  const std::vector<double> t = column(result.trajectory, "t_s");
-  ASSERT_EQ(t.size(), 21U);
-  const double omega = 10.0 * std::numbers::pi;
-  for (std::size_t k = 0; k < t.size(); ++k)
-    EXPECT_NEAR(column(result.trajectory, "j_drive_n")[k],
-                0.1 * omega * (3.0 * std::cos(omega * t[k]) - 2.0 * omega * std::sin(omega * t[k])), 1e-9)
-        << t[k];
+  expect_drive_force(driven, [](double phase) {
+    return 0.1 * kOmega * (3.0 * std::cos(phase) - 2.0 * kOmega * std::sin(phase));
+  });
 }
 
 TEST(LinkageSprings, AreSweptAndLeaveChannelsAndPeaks) {

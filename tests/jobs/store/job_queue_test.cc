@@ -29,7 +29,7 @@ TEST(Store, QueuesAgainWhatADeadProcessLeftRunning) {
   const jobs::ClaimedJob again = store.queue.claim().value();
   EXPECT_EQ(again.id, abandoned.id);
   EXPECT_EQ(again.attempt, 2);
-  // What the first attempt still delivers is void; the second counts, once.
+  // Results that the first attempt still delivers are void; the second counts, once.
   EXPECT_FALSE(store.queue.record(abandoned, successful_run(1.0)));
   EXPECT_TRUE(store.queue.record(again, successful_run(2.0)));
   EXPECT_FALSE(store.queue.record(again, successful_run(3.0)));
