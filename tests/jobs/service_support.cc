@@ -7,6 +7,9 @@
 #include <stdexcept>
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include "tests/jobs/request_support.h"
 
 namespace jobs_tests {
 
@@ -101,6 +104,19 @@ jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine,
   jobs::ServiceOptions options = options_of(store, threads);
   options.runner = engine.runner();
   return options;
+}
+
+std::string submitted(jobs::Service& service, const char* request) {
+  return service.submit_sweep(request_of(request)).at("id");
+}
+
+nlohmann::json finished(const jobs::Service& service, const std::string& sweep) {
+  EXPECT_TRUE(service.wait_for_sweep(sweep, std::chrono::seconds(20)));
+  return service.find_sweep(sweep).value();
+}
+
+std::string first_job(const jobs::Service& service, const std::string& sweep) {
+  return service.find_results(sweep).value().rows.at(0).at(0);
 }
 
 void execute_sql(const std::filesystem::path& file, const std::string& sql) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "jobs/service.h"
 
 namespace jobs_tests {
@@ -55,6 +57,13 @@ class FakeEngine {
 [[nodiscard]] jobs::ServiceOptions options_of(const TemporaryStore& store, int threads);
 /// A service on a fake engine.
 [[nodiscard]] jobs::ServiceOptions options_of(const TemporaryStore& store, FakeEngine& engine, int threads);
+
+/// Submits a sweep. @returns its id
+[[nodiscard]] std::string submitted(jobs::Service& service, const char* request);
+/// Waits until a sweep has ended. @returns its resource
+nlohmann::json finished(const jobs::Service& service, const std::string& sweep);
+/// Id of the first job of a sweep's table
+[[nodiscard]] std::string first_job(const jobs::Service& service, const std::string& sweep);
 
 /// Runs one statement on a store that nobody has open.
 void execute_sql(const std::filesystem::path& file, const std::string& sql);

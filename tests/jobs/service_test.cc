@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <future>
-#include <thread>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include "jobs/base/errors.h"
 #include "jobs/base/program_info.h"
@@ -25,25 +19,10 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-constexpr auto kLong = 20s;
-
-std::string submitted(jobs::Service& service, const char* request) {
-  return service.submit_sweep(request_of(request)).at("id");
-}
-
-json finished(const jobs::Service& service, const std::string& sweep) {
-  EXPECT_TRUE(service.wait_for_sweep(sweep, kLong));
-  return service.find_sweep(sweep).value();
-}
-
 std::size_t service_column(const jobs::ResultTable& table, const std::string& name) {
   const auto found = std::find(table.columns.begin(), table.columns.end(), name);
   EXPECT_NE(found, table.columns.end()) << name;
   return static_cast<std::size_t>(found - table.columns.begin());
-}
-
-std::string first_job(const jobs::Service& service, const std::string& sweep) {
-  return service.find_results(sweep).value().rows.at(0).at(0);
 }
 
 TEST(Service, ComputesASweepAndShowsIt) {
@@ -169,90 +148,6 @@ TEST(Service, StartsASmallSweepBesideALargeOneAsSoonAsAThreadIsFree) {
   finished(service, small);
   finished(service, large);
   EXPECT_EQ(engine.begun_speeds(), (std::vector<double>{1, 100, 2, 3, 4, 5, 6}));
-}
-
-TEST(Service, CancelsQueuedAndRunningJobsOfASweep) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  engine.hold();
-  jobs::Service service(options_of(store, engine, 2));
-  const std::string id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3, 4]}})");
-  engine.await_running(2);
-  EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
-  engine.await_running(0);  // they are held: only what is stopped ends
-  EXPECT_EQ(engine.stopped(), 2);
-  EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
-  EXPECT_EQ(service.find_sweep(id).value().at("counts").at("cancelled"), 4);
-  EXPECT_EQ(service.find_job(first_job(service, id)).value().at("state"), "cancelled");
-  EXPECT_FALSE(service.cancel_sweep("swp_none").has_value());
-}
-
-TEST(Service, CancelsOneJobAndLeavesTheOthers) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  engine.hold();
-  jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3]}})");
-  engine.await_running(1);
-  const auto rows = service.find_results(id).value().rows;
-  EXPECT_EQ(service.cancel_job(rows[0][0]).value().at("state"), "cancelled");  // running
-  EXPECT_EQ(service.cancel_job(rows[2][0]).value().at("state"), "cancelled");  // queued
-  engine.release();
-  EXPECT_EQ(finished(service, id).at("counts").at("succeeded"), 1);
-  EXPECT_THROW((void)service.cancel_job(rows[1][0]), jobs::WrongState);
-  EXPECT_FALSE(service.cancel_job("job_none").has_value());
-}
-
-TEST(Service, RefusesToCancelWhatHasEnded) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submitted(service, "{}");
-  finished(service, id);
-  EXPECT_THROW((void)service.cancel_sweep(id), jobs::WrongState);
-}
-
-TEST(Service, RunsWhatWaitedForACancelledJob) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  engine.hold();
-  jobs::Service service(options_of(store, engine, 1));
-  const std::string first = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-  engine.await_running(1);
-  const std::string second = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5]}})");
-  (void)service.cancel_sweep(first);
-  engine.release();
-  EXPECT_EQ(finished(service, second).at("state"), "succeeded");
-}
-
-// The thread of a cancelled job may take a while to stop. A job that waited for it starts beside it, on a
-// free thread.
-TEST(Service, WakesAFreeThreadForWhatWaitedForACancelledJob) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  std::promise<void> second_began;
-  auto second = second_began.get_future().share();
-  std::atomic<int> begun = 0;
-  std::atomic<bool> beside = false;
-  jobs::ServiceOptions options = options_of(store, engine, 2);
-  options.runner = [&, fake = engine.runner()](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
-    if (begun++ == 0) {
-      begun.notify_all();
-      beside = second.wait_for(60s) == std::future_status::ready;
-    } else {
-      second_began.set_value();
-    }
-    return fake(spec, stop);
-  };
-  jobs::Service service(options);
-  const std::string first = submitted(service, "{}");
-  begun.wait(0);
-  const std::string waiting = submitted(service, "{}");
-  std::this_thread::sleep_for(50ms);  // for the free thread to find that it has to wait
-  (void)service.cancel_sweep(first);
-  EXPECT_EQ(finished(service, waiting).at("state"), "succeeded");
-  service.stop();
-  EXPECT_TRUE(beside);
 }
 
 TEST(Service, LeavesASweepRunningWhenAJobFails) {
@@ -399,78 +294,6 @@ TEST(Service, ListsInPagesNewestFirst) {
       (std::vector<std::string>{"/cursor", "/limit", "/state"}));
 }
 
-TEST(Service, DeletesWhatHasEndedOnly) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  engine.hold();
-  jobs::Service service(options_of(store, engine, 1));
-  const std::string id = submitted(service, "{}");
-  EXPECT_THROW((void)service.delete_sweep(id), jobs::WrongState);
-  engine.release();
-  finished(service, id);
-  EXPECT_TRUE(service.delete_sweep(id));
-  EXPECT_FALSE(service.delete_sweep(id));
-  EXPECT_FALSE(service.find_sweep(id).has_value());
-}
-
-/// No file of this process may grow beyond a size, as if the disk were full there.
-class SizeLimit {
- public:
-  explicit SizeLimit(rlim_t size) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limited{.rlim_cur = size, .rlim_max = before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  ~SizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SizeLimit(const SizeLimit&) = delete;
-  SizeLimit& operator=(const SizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
-};
-
-// The log, which is new, may grow by a page more each time, until there is room to delete some jobs at a time:
-// there is none to delete all at once, but it is enough to make the file smaller, too.
-TEST(Service, DeletesOrRefusesToWhereTheDiskIsFull) {
-  constexpr rlim_t kPage = 8192;
-  const TemporaryStore temporary;
-  FakeEngine engine;
-  auto options = options_of(temporary, engine, 2);
-  std::string first;
-  {
-    jobs::Service service(options);
-    first = submitted(service, R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 100}}})");
-    EXPECT_EQ(finished(service, first).at("state"), "succeeded");
-    EXPECT_EQ(
-        finished(service,
-                 submitted(service, R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.2, "count": 100}}})"))
-            .at("state"),
-        "succeeded");
-  }
-  std::vector<std::string> told;
-  options.log = [&](const std::string& line) { told.push_back(line); };
-  jobs::Service service(options);
-  const auto size = std::filesystem::file_size(temporary.file());
-  bool deleted = false;
-  for (rlim_t pages = 1; !deleted && pages < 10'000; ++pages) {
-    try {
-      const SizeLimit limit(pages * kPage);
-      deleted = service.delete_sweep(first);
-    } catch (const jobs::StorageError& error) {
-      EXPECT_TRUE(error.full);
-      ASSERT_TRUE(service.find_sweep(first).has_value()) << "refused, but deleted";
-    }
-  }
-  EXPECT_TRUE(deleted);
-  EXPECT_FALSE(service.find_sweep(first).has_value());
-  EXPECT_TRUE(told.empty()) << told.front();
-  EXPECT_LT(std::filesystem::file_size(temporary.file()), size);
-}
-
 TEST(Service, EstimatesTheTimeThatIsLeft) {
   const TemporaryStore store;
   FakeEngine engine;
@@ -490,7 +313,7 @@ TEST(Service, WaitsForNoLongerThanItIsTold) {
   jobs::Service service(options_of(store, engine, 1));
   const std::string id = submitted(service, "{}");
   EXPECT_FALSE(service.wait_for_sweep(id, 20ms));
-  EXPECT_FALSE(service.wait_for_sweep("swp_none", kLong));
+  EXPECT_FALSE(service.wait_for_sweep("swp_none", 20s));
   engine.release();
   EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::milliseconds::max()));
 }
@@ -518,19 +341,6 @@ TEST(Service, ComputesNothingBeforeItIsTold) {
   service.start();  // once more changes nothing
   EXPECT_TRUE(service.wait_for_sweep(id, std::chrono::seconds(300)));
   EXPECT_EQ(engine.begun_speeds().size(), 3U);
-}
-
-TEST(Service, CancelsAndEndsWithoutHavingComputed) {
-  const TemporaryStore store;
-  FakeEngine engine;
-  jobs::ServiceOptions options = options_of(store, engine, 2);
-  options.start = jobs::Start::kWhenTold;
-  jobs::Service service(options);
-  const std::string id =
-      service.submit_sweep(json::parse(R"({"sweep": {"crank_velocity_rad_s": [5, 6, 7]}})")).at("id");
-  EXPECT_EQ(service.cancel_sweep(id).value().at("state"), "cancelled");
-  service.stop();
-  EXPECT_TRUE(engine.begun_speeds().empty());
 }
 
 }  // namespace
