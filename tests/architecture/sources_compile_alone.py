@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles each source of the libraries alone, without making code: a batch of sources hides the includes that one of them lacks.
+"""Compiles each source of the libraries alone, without making code: a batch of sources hides includes that are missing in one of them.
 
 sources_compile_alone.py BUILD_FOLDER; its compile_commands.json has the options of each target.
 """
