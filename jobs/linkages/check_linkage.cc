@@ -59,6 +59,14 @@ class LinkageChecker {
     faults_.push_back({std::move(pointer), std::move(detail)});
   }
 
+  [[nodiscard]] static bool is_plain_name(const std::string& name) {
+    return !name.empty() && name.size() <= kLongestKey &&
+           std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
+           std::all_of(name.begin(), name.end(), [](char c) {
+             return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+           });
+  }
+
   /// @returns whether every entry can be looked at
   bool check_names(const char* key, std::size_t most) {
     const std::size_t before = faults_.size();
@@ -67,12 +75,7 @@ class LinkageChecker {
     if (named.empty() || named.size() > most)
       fault(pointer, "must have one entry or more, at most " + std::to_string(most));
     for (const auto& [name, value] : named.items()) {
-      const bool plain = !name.empty() && name.size() <= kLongestKey &&
-                         std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-                         std::all_of(name.begin(), name.end(), [](char c) {
-                           return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-                         });
-      if (!plain)
+      if (!is_plain_name(name))
         fault(pointer + pointer_token(name),
               "a name is a letter, then letters, digits and _, at most 32 in all");
       if (!value.is_object()) fault(pointer + pointer_token(name), "must be an object");
@@ -161,12 +164,16 @@ class LinkageChecker {
     if (!spring.contains("stiffness_n_m") && !spring.contains("damping_n_s_m") &&
         !spring.contains("drag_n_s_m"))
       fault(pointer, "must have a stiffness_n_m, a damping_n_s_m or a drag_n_s_m");
-    // Between bodies that turn as one it would brake them although nothing moves between them.
+    check_drag(spring, pointer);
+    for (const auto& [other, joint] : given_.at("joints").items())
+      if (other == name) fault(pointer, "needs a name that is no joint's: there is a joint " + other);
+  }
+
+  /// Drag between bodies that turn as one would brake them although nothing moves between them.
+  void check_drag(const json& spring, const std::string& pointer) {
     if (spring.contains("drag_n_s_m") && spring.value("from", json()) != engine::kGroundName &&
         spring.value("to", json()) != engine::kGroundName)
       fault(pointer + "/drag_n_s_m", "needs the ground at one end of the spring");
-    for (const auto& [other, joint] : given_.at("joints").items())
-      if (other == name) fault(pointer, "needs a name that is no joint's: there is a joint " + other);
   }
 
   [[nodiscard]] bool is_unknown_body(const json& object, const char* key) const {
@@ -215,18 +222,19 @@ class LinkageChecker {
     }
   }
 
-  void check_kind(const json& joint, JointKind kind, const std::string& pointer) {
+  [[nodiscard]] static bool has_axis(JointKind kind) {
+    return kind != JointKind::kSpherical && kind != JointKind::kPlanar && kind != JointKind::kFree &&
+           kind != JointKind::kWeld;
+  }
+
+  /// Faults of keys that belong to joints of another kind.
+  void check_keys_of_kind(const json& joint, JointKind kind, const std::string& pointer) {
     const auto only = [&](const char* key, bool fits, const char* of) {
       if (joint.contains(key) && !fits) fault(pointer + pointer_token(key), std::string("belongs to ") + of);
     };
     const bool closes = closes_loop(joint);
     only("second_axis", kind == JointKind::kUniversal, "a universal joint");
-    const bool cannot_close =
-        kind == JointKind::kScrew || kind == JointKind::kPlanar || kind == JointKind::kFree;
-    only("axis",
-         kind != JointKind::kSpherical && kind != JointKind::kPlanar && kind != JointKind::kFree &&
-             kind != JointKind::kWeld,
-         "a joint with an axis");
+    only("axis", has_axis(kind), "a joint with an axis");
     only("lead_mm", kind == JointKind::kScrew, "a screw");
     only("freedoms", list_freedoms(joint).size() > 1 && !closes,
          "a joint of several freedoms that carries its second body");
@@ -235,6 +243,13 @@ class LinkageChecker {
     only("cross", has_cross(joint), "a universal joint with clearance");
     only("to_at_m", closes, "a joint that closes a loop");
     only("to_turned_deg", closes, "a joint that closes a loop");
+  }
+
+  void check_kind(const json& joint, JointKind kind, const std::string& pointer) {
+    check_keys_of_kind(joint, kind, pointer);
+    const bool closes = closes_loop(joint);
+    const bool cannot_close =
+        kind == JointKind::kScrew || kind == JointKind::kPlanar || kind == JointKind::kFree;
     if (cannot_close && closes)
       fault(pointer + "/closes_loop",
             "must be false of a screw, planar or free joint: have the loop cut at another joint");
@@ -319,11 +334,10 @@ class LinkageChecker {
     if (!detail.empty()) fault("/linkage", std::move(detail));
   }
 
-  /// Each joint behind the one that carries its first body; by names where that leaves a choice.
-  void sort_joints() {
-    const json& joints = given_.at("joints");
+  /// The joint that carries each body. Faults of bodies that none carries, or more than one.
+  std::map<std::string, std::string> find_carriers() {
     std::map<std::string, std::string> carried_by;
-    for (const auto& [name, joint] : joints.items()) {
+    for (const auto& [name, joint] : given_.at("joints").items()) {
       if (closes_loop(joint)) continue;
       const auto [entry, is_new] = carried_by.emplace(joint.at("to").get<std::string>(), name);
       if (!is_new)
@@ -334,13 +348,19 @@ class LinkageChecker {
     for (const auto& [name, body] : given_.at("bodies").items())
       if (!carried_by.contains(name))
         fault("/linkage/bodies" + pointer_token(name), "is carried by no joint");
+    return carried_by;
+  }
+
+  /// Each joint behind the one that carries its first body; by names where that leaves a choice.
+  void sort_joints() {
+    const std::map<std::string, std::string> carried_by = find_carriers();
     if (failed()) return;
     add_carried(engine::kGroundName);
     for (const auto& [body, joint] : carried_by)
       if (std::ranges::find(order_, joint) == order_.end())
         fault("/linkage/joints" + pointer_token(joint) + "/from",
               "leads back to the body itself: no chain of joints carries it from the ground");
-    for (const auto& [name, joint] : joints.items())
+    for (const auto& [name, joint] : given_.at("joints").items())
       if (closes_loop(joint)) order_.push_back(name);
   }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "engine/model/rpsup.h"
 #include "jobs/linkages/actuator_fields.h"
@@ -157,12 +158,17 @@ engine::Controller read_controller(const json& given, const EffortKeys& effort, 
   return controller;
 }
 
+std::variant<engine::Signal, engine::Controller> read_voltage(const json& motor, engine::Motion motion,
+                                                              const engine::RpsupParameters& defaults) {
+  if (motor.contains("controller"))
+    return read_controller(motor.at("controller"), voltage(), motion, defaults);
+  return read_effort(motor.at("voltage_v"), voltage(), motion).law;
+}
+
 engine::DcMotor read_motor(const json& given, engine::Motion motion,
                            const engine::RpsupParameters& defaults) {
   engine::DcMotor motor;
-  if (given.contains("controller"))
-    motor.voltage = read_controller(given.at("controller"), voltage(), motion, defaults);
-  else motor.voltage = read_effort(given.at("voltage_v"), voltage(), motion).law;
+  motor.voltage = read_voltage(given, motion, defaults);
   motor.torque_constant = given.at("torque_constant_n_m_a").get<double>();
   motor.resistance = given.at("resistance_ohm").get<double>();
   motor.inductance = given.at("inductance_h").get<double>();

@@ -33,6 +33,13 @@ Section rectangle(double height, double width) {
   return {height * width, height * std::pow(width, 3) / 12.0, width * std::pow(height, 3) / 12.0, J};
 }
 
+Section section_of(const json& beam) {
+  if (beam.contains("diameter_mm"))
+    return tube(beam.at("diameter_mm").get<double>() / kMmPerM,
+                beam.value("inner_diameter_mm", 0.0) / kMmPerM);
+  return rectangle(beam.at("height_mm").get<double>() / kMmPerM, beam.at("width_mm").get<double>() / kMmPerM);
+}
+
 double youngs_modulus(const json& beam, const engine::RpsupParameters& defaults) {
   return beam.value("youngs_modulus_pa", defaults.youngs_modulus);
 }
@@ -63,14 +70,10 @@ engine::UniformBeam read_beam(const json& beam, double mass, const engine::Rpsup
   const double length = beam.at("length_m").get<double>();
   const double E = youngs_modulus(beam, defaults), G = shear_modulus(beam, defaults);
   const double damping_ratio = beam.value("damping_ratio", engine::RpsupParameters{}.coupler_damping_ratio);
-  const bool round = beam.contains("diameter_mm");
-  const Section section = round ? tube(beam.at("diameter_mm").get<double>() / kMmPerM,
-                                       beam.value("inner_diameter_mm", 0.0) / kMmPerM)
-                                : rectangle(beam.at("height_mm").get<double>() / kMmPerM,
-                                            beam.at("width_mm").get<double>() / kMmPerM);
+  const Section section = section_of(beam);
   const double polar = section.I_y + section.I_z;
   const double I_x = beam.value("axial_inertia_kg_m2", mass * polar / section.A);
-  if (round && beam.value("inner_diameter_mm", 0.0) == 0.0)
+  if (beam.contains("diameter_mm") && beam.value("inner_diameter_mm", 0.0) == 0.0)
     return engine::make_beam({.length = length, .mass = mass, .I_x = I_x,
                               .diameter = beam.at("diameter_mm").get<double>() / kMmPerM,
                               .youngs_modulus = E, .shear_modulus = G, .damping_ratio = damping_ratio});

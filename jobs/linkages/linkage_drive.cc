@@ -32,6 +32,15 @@ void check_table(const json& drive, const char* values, const std::string& point
                       "must have one value for each of the " + std::to_string(times.size()) + " times"});
 }
 
+/// Faults of the table of a law that has one.
+void check_table_of_law(const json& drive, engine::Motion motion, const std::string& pointer,
+                        std::vector<Fault>& faults) {
+  if (drive.at("law") == "table")
+    check_table(drive, slides(motion) ? "values_m" : "values_rad", pointer, faults);
+  if (drive.at("law") == "velocity_table")
+    check_table(drive, slides(motion) ? "velocities_m_s" : "velocities_rad_s", pointer, faults);
+}
+
 /// Lets the former key stand for the present one, but not beside it.
 void allow_former_key(const json& drive, engine::Motion motion, const std::string& pointer,
                       LinkageFields& fields, std::vector<Fault>& faults) {
@@ -57,18 +66,12 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
   const std::size_t before = faults.size();
   const std::string law =
       drive.contains("law") && drive.at("law").is_string() ? drive.at("law").get<std::string>() : "";
-  if (std::ranges::find(kLaws, law) == std::end(kLaws)) {
-    const LinkageFields any = drive_fields(motion, "");
-    check_fields(json{{"law", drive.value("law", json())}}, any, pointer, faults);
-    return;
-  }
+  if (std::ranges::find(kLaws, law) == std::end(kLaws))
+    return check_fields(json{{"law", drive.value("law", json())}}, drive_fields(motion, ""), pointer, faults);
   LinkageFields fields = drive_fields(motion, law);
   if (law == "polynomial") allow_former_key(drive, motion, pointer, fields, faults);
   check_fields(drive, fields, pointer, faults);
-  if (faults.size() > before) return;
-  if (law == "table") check_table(drive, slides(motion) ? "values_m" : "values_rad", pointer, faults);
-  if (law == "velocity_table")
-    check_table(drive, slides(motion) ? "velocities_m_s" : "velocities_rad_s", pointer, faults);
+  if (faults.size() == before) check_table_of_law(drive, motion, pointer, faults);
 }
 
 json canonical_drive(const json& drive, engine::Motion motion) {

@@ -26,12 +26,39 @@ const std::map<std::string_view, JointKind> kKinds{{"revolute", JointKind::kRevo
                                                    {"planar", JointKind::kPlanar}, {"free", JointKind::kFree},
                                                    {"weld", JointKind::kWeld}};
 
+constexpr std::array<std::string_view, 3> kSlides{"slide_x", "slide_y", "slide_z"};
+constexpr std::array<std::string_view, 3> kTurns{"turn_x", "turn_y", "turn_z"};
+
 /// 0, 1 or 2; z unless the joint names another axis.
 std::size_t axis_index(const json& joint) {
   const auto word = joint.find("axis");
   if (word == joint.end() || !word->is_string()) return 2;
   const std::string& axis = word->get_ref<const std::string&>();
   return axis == "x" ? 0 : axis == "y" ? 1 : 2;
+}
+
+/// The first freedom of a joint's own that is of this motion; without one, a further freedom.
+JointFreedom own_or_further(const std::vector<JointFreedom>& own, engine::Motion motion,
+                            std::string_view further) {
+  const auto found = std::ranges::find(own, motion, &JointFreedom::second);
+  return {found != own.end() ? found->first : further, motion};
+}
+
+/// The six freedoms of a joint with clearance. @param axis  0, 1 or 2
+std::vector<JointFreedom> list_freedoms_with_play(JointKind kind, std::size_t axis) {
+  using enum engine::Motion;
+  const std::vector<JointFreedom> own = freedoms_of(kind);
+  std::vector<JointFreedom> all;
+  for (const std::string_view slide : kSlides) all.push_back({slide, kTranslation});
+  all[axis] = own_or_further(own, kTranslation, kSlides[axis]);
+  if (kind == JointKind::kSpherical) {
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+  }
+  all.push_back(own_or_further(own, kRotation, kTurns[axis]));
+  for (const std::size_t i : {2, 1, 0})
+    if (i != axis) all.push_back({kTurns[i], kRotation});
+  return all;
 }
 
 }  // namespace
@@ -63,27 +90,9 @@ std::vector<JointFreedom> freedoms_of(JointKind kind) {
 
 std::vector<JointFreedom> list_freedoms(const json& joint) {
   const JointKind kind = find_joint_kind(joint).value();
-  const std::vector<JointFreedom> own = freedoms_of(kind);
-  if (!joint.contains("clearance") || closes_loop(joint) || kind == JointKind::kUniversal) return own;
-  constexpr std::array<std::string_view, 3> kSlides{"slide_x", "slide_y", "slide_z"},
-      kTurns{"turn_x", "turn_y", "turn_z"};
-  using enum engine::Motion;
-  const std::size_t axis = axis_index(joint);
-  const auto name_of = [&](engine::Motion motion, bool is_own, std::string_view other) -> JointFreedom {
-    const auto found = std::ranges::find(own, motion, &JointFreedom::second);
-    return {is_own && found != own.end() ? found->first : other, motion};
-  };
-  std::vector<JointFreedom> all;
-  for (std::size_t i = 0; i < 3; ++i)
-    all.push_back(name_of(kTranslation, i == axis, kSlides[i]));
-  if (kind == JointKind::kSpherical) {
-    all.insert(all.end(), own.begin(), own.end());
-    return all;
-  }
-  all.push_back(name_of(kRotation, true, kTurns[axis]));
-  for (const std::size_t i : {2, 1, 0})
-    if (i != axis) all.push_back({kTurns[i], kRotation});
-  return all;
+  if (!joint.contains("clearance") || closes_loop(joint) || kind == JointKind::kUniversal)
+    return freedoms_of(kind);
+  return list_freedoms_with_play(kind, axis_index(joint));
 }
 
 engine::Axis read_axis(const json& joint, const char* key, char otherwise) {

@@ -18,6 +18,13 @@ void take_properties(const json& from, json& to) {
   for (const auto& [key, value] : from.at("properties").items()) to["properties"][key] = value;
 }
 
+/// Gives a property a schema of its own, with the description that it has.
+void replace_property(const char* key, json of_key, json& schema) {
+  json& property = schema["properties"][key];
+  of_key["description"] = property["description"];
+  property = std::move(of_key);
+}
+
 json named(json entry, std::string_view what) {
   return {{"type", "object"}, {"description", what}, {"minProperties", 1},
           {"propertyNames", {{"pattern", "^[A-Za-z][A-Za-z0-9_]{0,31}$"}}},
@@ -31,6 +38,17 @@ json schema_of_drive(engine::Motion motion) {
   return schema;
 }
 
+/// Requires the variable of a table: the times, or one of those that it may have.
+void require_variable(engine::Motion motion, EffortVariables variables, json& table) {
+  const TableVariables of = table_variables(motion);
+  if (variables == EffortVariables::kTime) {
+    table["required"].push_back(of.times);
+    return;
+  }
+  for (const std::string_view key : {of.times, of.positions, of.velocities})
+    table["oneOf"].push_back({{"required", json::array({key})}});
+}
+
 /// Schema of a number or a law under a key of `fields`.
 json schema_of_effort(const LinkageField& field, const EffortKeys& effort, engine::Motion motion,
                       EffortVariables variables) {
@@ -39,14 +57,7 @@ json schema_of_effort(const LinkageField& field, const EffortKeys& effort, engin
   for (const std::string_view law : kEffortLaws) {
     json schema = schema_of_fields(effort_fields(effort, law, motion, variables));
     schema["properties"]["law"] = {{"const", law}};
-    if (law == "table") {
-      const TableVariables of = table_variables(motion);
-      if (variables == EffortVariables::kTime)
-        schema["required"].push_back(of.times);
-      else
-        for (const std::string_view key : {of.times, of.positions, of.velocities})
-          schema["oneOf"].push_back({{"required", json::array({key})}});
-    }
+    if (law == "table") require_variable(motion, variables, schema);
     any.push_back(std::move(schema));
   }
   return {{"description", field.help}, {"x-unit", field.unit}, {"anyOf", std::move(any)}};
@@ -105,18 +116,35 @@ json schema_of_freedom(engine::Motion motion) {
   const auto load = std::ranges::find(fields, FieldKind::kEffort, &LinkageField::kind);
   schema["properties"][load->key] =
       schema_of_effort(*load, force_or_torque(motion), motion, EffortVariables::kAny);
-  json friction = schema_of_fields(friction_fields(motion));
-  friction["description"] = schema["properties"]["friction"]["description"];
-  schema["properties"]["friction"] = std::move(friction);
+  replace_property("friction", schema_of_fields(friction_fields(motion)), schema);
   return schema;
 }
 
 json schema_of_body() {
   json schema = schema_of_fields(body_fields());
-  json beam = schema_of_fields(beam_fields());
-  beam["description"] = schema["properties"]["beam"]["description"];
-  schema["properties"]["beam"] = std::move(beam);
+  replace_property("beam", schema_of_fields(beam_fields()), schema);
   return schema;
+}
+
+/// The keys of all kinds of joint that can have clearance.
+json schema_of_clearance() {
+  LinkageFields fields = clearance_fields();
+  for (LinkageField field : block_fields()) {
+    field.required = false;
+    fields.push_back(std::move(field));
+  }
+  return schema_of_fields(fields);
+}
+
+/// The freedoms of all kinds of joint, by their names.
+void add_named_freedoms(const json& slide, const json& turn, json& freedoms) {
+  freedoms["additionalProperties"] = false;
+  freedoms["properties"] = json::object();
+  for (const char* const name : {"slide", "slide_x", "slide_y", "slide_z"})
+    freedoms["properties"][name] = slide;
+  for (const char* const name : {"turn", "first", "second", "turn_z", "turn_y", "turn_x"})
+    freedoms["properties"][name] = turn;
+  for (const char* const name : {"x", "y", "z"}) freedoms["properties"][name] = {{"anyOf", {slide, turn}}};
 }
 
 /// The keys of all kinds of joint; refusals tell which of them a kind does not have.
@@ -130,25 +158,9 @@ json schema_of_joint() {
       {"anyOf", {schema_of_drive(engine::Motion::kRotation), schema_of_drive(engine::Motion::kTranslation)}}};
   schema["properties"]["friction"] = {
       {"anyOf", {turn["properties"]["friction"], slide["properties"]["friction"]}}};
-  LinkageFields of_clearance = clearance_fields();
-  for (LinkageField field : block_fields()) {
-    field.required = false;
-    of_clearance.push_back(std::move(field));
-  }
-  json clearance = schema_of_fields(of_clearance);
-  clearance["description"] = schema["properties"]["clearance"]["description"];
-  schema["properties"]["clearance"] = std::move(clearance);
-  json cross = schema_of_fields(cross_fields());
-  cross["description"] = schema["properties"]["cross"]["description"];
-  schema["properties"]["cross"] = std::move(cross);
-  json& freedoms = schema["properties"]["freedoms"];
-  freedoms["additionalProperties"] = false;
-  freedoms["properties"] = json::object();
-  for (const char* const name : {"slide", "slide_x", "slide_y", "slide_z"})
-    freedoms["properties"][name] = slide;
-  for (const char* const name : {"turn", "first", "second", "turn_z", "turn_y", "turn_x"})
-    freedoms["properties"][name] = turn;
-  for (const char* const name : {"x", "y", "z"}) freedoms["properties"][name] = {{"anyOf", {slide, turn}}};
+  replace_property("clearance", schema_of_clearance(), schema);
+  replace_property("cross", schema_of_fields(cross_fields()), schema);
+  add_named_freedoms(slide, turn, schema["properties"]["freedoms"]);
   return schema;
 }
 

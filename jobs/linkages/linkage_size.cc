@@ -23,19 +23,21 @@ std::size_t elements_of(const json& beam, std::size_t otherwise) {
              : static_cast<std::size_t>(std::clamp(found->get<double>(), 1.0, 1e6));
 }
 
+void add_size_of_joint(const json& joint, LinkageSize& size) {
+  const bool cross = has_cross(joint), closes = closes_loop(joint), has_play = joint.contains("clearance");
+  if (cross) size.freedoms += closes ? kFreedomsOfABody : 2 * kFreedomsOfABody;
+  else if (!closes) size.freedoms += list_freedoms(joint).size();
+  // Those of a joint with clearance put it together at the start.
+  if (cross) size.constraints += 2 * (kFreedomsOfABody - 1);
+  else if (closes || has_play)
+    size.constraints += kFreedomsOfABody - freedoms_of(find_joint_kind(joint).value()).size();
+}
+
 }  // namespace
 
 LinkageSize size_of_linkage(const json& description, std::size_t elements) {
   LinkageSize size;
-  for (const json& joint : description.at("joints")) {
-    const bool cross = has_cross(joint), closes = closes_loop(joint), has_play = joint.contains("clearance");
-    if (cross) size.freedoms += closes ? kFreedomsOfABody : 2 * kFreedomsOfABody;
-    else if (!closes) size.freedoms += list_freedoms(joint).size();
-    // Those of a joint with clearance put it together at the start.
-    if (cross) size.constraints += 2 * (kFreedomsOfABody - 1);
-    else if (closes || has_play)
-      size.constraints += kFreedomsOfABody - freedoms_of(find_joint_kind(joint).value()).size();
-  }
+  for (const json& joint : description.at("joints")) add_size_of_joint(joint, size);
   size.coordinates = size.freedoms;
   for (const json& body : description.at("bodies")) {
     if (body.contains("beam"))

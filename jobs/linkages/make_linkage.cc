@@ -74,58 +74,71 @@ class LinkageMaker {
       linkage.bodies.push_back(make_body(name, body));
     for (const std::string& name : order)
       add_joint(name, given_.at("joints").at(name), linkage);
+    add_springs_and_loads(linkage);
+    if (given_.contains("accelerometers"))
+      for (const auto& [name, accelerometer] : given_.at("accelerometers").items())
+        linkage.accelerometers.push_back(make_accelerometer(name, accelerometer));
+    set_gravity_and_ground(linkage);
+    set_drive_rows(linkage);
+    return linkage;
+  }
+
+ private:
+  void add_springs_and_loads(engine::Linkage& linkage) const {
     if (given_.contains("springs"))
       for (const auto& [name, spring] : given_.at("springs").items())
         linkage.springs.push_back(make_spring(name, spring));
     if (given_.contains("loads"))
       for (const auto& [name, load] : given_.at("loads").items())
         linkage.loads.push_back(read_body_load(name, load));
-    if (given_.contains("accelerometers"))
-      for (const auto& [name, one] : given_.at("accelerometers").items())
-        linkage.accelerometers.push_back({.name = name,
-                                          .body = one.at("body").get<std::string>(),
-                                          .at = point_of(one, "at_m"),
-                                          .direction = point_of(one, "direction").stableNormalized(),
-                                          .follows_body = one.value("follows_body", true),
-                                          .shows_gravity = one.value("shows_gravity", true)});
+  }
+
+  void set_gravity_and_ground(engine::Linkage& linkage) const {
     if (given_.contains("ground_acceleration_m_s2"))
       for (const auto& [axis, law] : given_.at("ground_acceleration_m_s2").items())
         linkage.ground_acceleration[static_cast<std::size_t>(axis[0] - 'x')] = read_acceleration(law);
     linkage.gravity_W = given_.contains("gravity_m_s2") ? point_of(given_, "gravity_m_s2")
                                                         : Eigen::Vector3d(0.0, -defaults_.gravity, 0.0);
+  }
+
+  void set_drive_rows(engine::Linkage& linkage) const {
     linkage.drive_rows = defaults_.drive == engine::DriveEnforcement::kBaumgarte
                              ? engine::DriveRows::kMultipliers
                              : engine::DriveRows::kEliminated;
     linkage.baumgarte_alpha = defaults_.baumgarte_alpha;
     linkage.baumgarte_beta = defaults_.baumgarte_beta;
-    return linkage;
   }
 
- private:
   [[nodiscard]] engine::LinkageBody make_body(const std::string& name, const json& given) const {
     engine::LinkageBody body;
     body.name = name;
     body.mass = given.at("mass_kg").get<double>();
-    if (given.contains("beam")) {
-      const engine::UniformBeam beam = read_beam(given.at("beam"), body.mass, defaults_);
-      body.elements = given.at("beam").value("elements", defaults_.rigid_elements);
-      if (body.elements > 1) {
-        body.beam = beam;
-      } else {
-        body.com.x() = 0.5 * beam.length;
-        body.inertia = engine::calc_beam_inertia(beam).asDiagonal();
-      }
-      return body;
+    if (given.contains("beam")) set_beam(given.at("beam"), body);
+    else set_inertia(given, body);
+    return body;
+  }
+
+  /// A beam of one element is a rigid body with the beam's inertia.
+  void set_beam(const json& given, engine::LinkageBody& body) const {
+    const engine::UniformBeam beam = read_beam(given, body.mass, defaults_);
+    body.elements = given.value("elements", defaults_.rigid_elements);
+    if (body.elements > 1) {
+      body.beam = beam;
+    } else {
+      body.com.x() = 0.5 * beam.length;
+      body.inertia = engine::calc_beam_inertia(beam).asDiagonal();
     }
+  }
+
+  static void set_inertia(const json& given, engine::LinkageBody& body) {
     body.com = point_of(given, "centre_of_mass_m");
     if (given.contains("inertia_about_origin_kg_m2")) {
       body.inertia = inertia_of(given.at("inertia_about_origin_kg_m2"));
-      return body;
+      return;
     }
     if (given.contains("inertia_kg_m2")) body.inertia = inertia_of(given.at("inertia_kg_m2"));
     body.inertia +=
         body.mass * (body.com.squaredNorm() * Eigen::Matrix3d::Identity() - body.com * body.com.transpose());
-    return body;
   }
 
   void add_joint(const std::string& name, const json& given, engine::Linkage& linkage) const {
@@ -143,13 +156,20 @@ class LinkageMaker {
     }
     joint.axes = {read_axis(given, "axis", 'z'), read_axis(given, "second_axis", 'y')};
     joint.lead = given.value("lead_mm", 0.0) / kMmPerM / (2.0 * std::numbers::pi);
+    joint.freedoms = make_freedoms(joint, given);
+    return joint;
+  }
+
+  [[nodiscard]] std::vector<engine::LinkageFreedom> make_freedoms(const engine::LinkageJoint& joint,
+                                                                  const json& given) const {
+    std::vector<engine::LinkageFreedom> freedoms;
     for (const auto& [part, motion] : joint.clearance ? list_freedoms(given) : freedoms_of(joint.kind)) {
       const std::string key(part);
-      joint.freedoms.push_back(part.empty()
-                                   ? make_freedom(name, given, motion)
-                                   : make_freedom(name + "_" + key, freedom_of(given, key), motion));
+      freedoms.push_back(part.empty()
+                             ? make_freedom(joint.name, given, motion)
+                             : make_freedom(joint.name + "_" + key, freedom_of(given, key), motion));
     }
-    return joint;
+    return freedoms;
   }
 
   [[nodiscard]] static engine::LinkageJoint start_joint(const std::string& name, const json& given) {
@@ -170,30 +190,40 @@ class LinkageMaker {
   /// A universal joint with clearance: two revolute joints with the cross between them, the first of which
   /// carries the cross.
   void add_crossed(const std::string& name, const json& given, engine::Linkage& linkage) const {
-    const engine::LinkageJoint whole = start_joint(name, given);
     const std::string cross = name + std::string(kCrossEnding);
     linkage.bodies.push_back(make_body(cross, given.at("cross")));
-    const std::array<engine::Axis, 2> axes{read_axis(given, "axis", 'z'),
-                                           read_axis(given, "second_axis", 'y')};
-    engine::LinkageJoint first = whole, second = whole;
-    for (engine::LinkageJoint* const joint : {&first, &second}) {
-      joint->kind = JointKind::kRevolute;
-      if (has_clearance(given, defaults_))
-        joint->clearance = read_clearance(given.at("clearance"), JointKind::kRevolute, defaults_);
-    }
-    first.name = name + "_first";
+    linkage.joints.push_back(make_first_of_cross(name, given, cross));
+    linkage.joints.push_back(make_second_of_cross(name, given, cross));
+  }
+
+  /// A revolute joint between the bodies of the universal one, with its clearance.
+  [[nodiscard]] engine::LinkageJoint start_revolute(const std::string& name, const json& given) const {
+    engine::LinkageJoint joint = start_joint(name, given);
+    joint.kind = JointKind::kRevolute;
+    if (has_clearance(given, defaults_))
+      joint.clearance = read_clearance(given.at("clearance"), joint.kind, defaults_);
+    return joint;
+  }
+
+  [[nodiscard]] engine::LinkageJoint make_first_of_cross(const std::string& name, const json& given,
+                                                         const std::string& cross) const {
+    engine::LinkageJoint first = start_revolute(name + "_first", given);
     first.to = cross;
     first.cut = false;
-    first.axes[0] = axes[0];
+    first.axes[0] = read_axis(given, "axis", 'z');
     add_freedoms(first, freedom_of(given, "first"));
-    second.name = name + "_second";
+    return first;
+  }
+
+  [[nodiscard]] engine::LinkageJoint make_second_of_cross(const std::string& name, const json& given,
+                                                          const std::string& cross) const {
+    engine::LinkageJoint second = start_revolute(name + "_second", given);
     second.from = cross;
     second.placement = {};
-    second.axes[0] = axes[1];
-    if (second.cut) place_cut_axis(given, axes[1], second);
+    second.axes[0] = read_axis(given, "second_axis", 'y');
+    if (second.cut) place_cut_axis(given, second.axes[0], second);
     else add_freedoms(second, freedom_of(given, "second"));
-    linkage.joints.push_back(std::move(first));
-    linkage.joints.push_back(std::move(second));
+    return second;
   }
 
   /// Freedoms of a joint of a cross, with clearance or without.
@@ -226,6 +256,16 @@ class LinkageMaker {
                                : std::nullopt};
   }
 
+  [[nodiscard]] static engine::LinkageAccelerometer make_accelerometer(const std::string& name,
+                                                                       const json& given) {
+    return {.name = name,
+            .body = given.at("body").get<std::string>(),
+            .at = point_of(given, "at_m"),
+            .direction = point_of(given, "direction").stableNormalized(),
+            .follows_body = given.value("follows_body", true),
+            .shows_gravity = given.value("shows_gravity", true)};
+  }
+
   /// The engine's cut joints have their axis along z, the second one of a universal joint along the journal's
   /// x.
   static void place_cut(const json& given, engine::LinkageJoint& joint) {
@@ -249,6 +289,11 @@ class LinkageMaker {
     freedom.start_rate = optional("start_rate_m_s", "start_rate_rad_s");
     freedom.stiffness = optional("stiffness_n_m", "stiffness_n_m_rad").value_or(0.0);
     freedom.damping = optional("damping_n_s_m", "damping_n_m_s_rad").value_or(0.0);
+    set_drive_and_forces(given, motion, freedom);
+    return freedom;
+  }
+
+  void set_drive_and_forces(const json& given, engine::Motion motion, engine::LinkageFreedom& freedom) const {
     if (given.contains("drive") && is_actuator(given.at("drive")))
       freedom.actuator = read_actuator(given.at("drive"), motion, defaults_);
     else if (given.contains("drive"))
@@ -257,7 +302,6 @@ class LinkageMaker {
       freedom.load = read_load(given.at(load), motion);
     if (given.contains("friction"))
       freedom.friction = read_friction(given.at("friction"), motion, defaults_);
-    return freedom;
   }
 
   const json& given_;
