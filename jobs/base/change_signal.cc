@@ -42,6 +42,13 @@ void ChangeSignal::wait_until_closed(std::chrono::seconds at_most) const {
   changed_.wait_for(lock, at_most, [&] { return closed_; });
 }
 
+bool ChangeSignal::wait_for_change(std::uint64_t seen,
+                                   std::chrono::steady_clock::time_point deadline) const {
+  std::unique_lock lock(mutex_);
+  const bool changed = changed_.wait_until(lock, deadline, [&] { return closed_ || count_ != seen; });
+  return changed && !closed_;
+}
+
 bool ChangeSignal::wait_for(std::chrono::milliseconds at_most,
                             const std::function<std::optional<bool>()>& has_ended) const {
   constexpr std::chrono::milliseconds kBetweenQuestions{5};  // where thousands of jobs end in a second
@@ -53,11 +60,7 @@ bool ChangeSignal::wait_for(std::chrono::milliseconds at_most,
     const auto asked = std::chrono::steady_clock::now();
     const std::optional<bool> ended = has_ended();
     if (!ended || *ended) return ended.value_or(false);
-    {
-      std::unique_lock lock(mutex_);
-      const bool changed = changed_.wait_until(lock, deadline, [&] { return closed_ || count_ != seen; });
-      if (!changed || closed_) return false;
-    }
+    if (!wait_for_change(seen, deadline)) return false;
     std::this_thread::sleep_until(asked + kBetweenQuestions);
   }
 }

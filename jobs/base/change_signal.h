@@ -30,6 +30,9 @@ class ChangeSignal {
                 const std::function<std::optional<bool>()>& has_ended) const;
 
  private:
+  /// Blocks until count() differs from `seen`. @returns false at the deadline, or if the signal is closed
+  bool wait_for_change(std::uint64_t seen, std::chrono::steady_clock::time_point deadline) const;
+
   mutable std::mutex mutex_;  // guards the rest
   mutable std::condition_variable changed_;
   std::uint64_t count_ = 0;

@@ -20,6 +20,16 @@ std::optional<nlohmann::json> read_as(std::string_view digits) {
   return nlohmann::json(value);
 }
 
+/// Leading zeros are no JSON, and what nlohmann::json writes starts and ends its numbers with a digit.
+/// @param digits  digits, signs, '.' and 'e' alone
+bool is_plain_number(std::string_view digits) {
+  const std::string_view unsigned_digits = digits.starts_with('-') ? digits.substr(1) : digits;
+  if (unsigned_digits.empty() || unsigned_digits.back() < '0' || unsigned_digits.front() < '0') return false;
+  const bool has_leading_zero =
+      unsigned_digits.size() > 1 && unsigned_digits[0] == '0' && unsigned_digits[1] >= '0';
+  return !has_leading_zero;
+}
+
 }  // namespace
 
 bool FlatJson::take(char c) {
@@ -58,12 +68,7 @@ std::optional<nlohmann::json> FlatJson::number() {
     else if (c != '-' && c != '+' && (c < '0' || c > '9')) return std::nullopt;
   }
   const std::string_view digits = rest_.substr(0, size);
-  // Leading zeros are no JSON, and what nlohmann::json writes starts and ends its numbers with a digit.
-  const std::string_view unsigned_digits = digits.starts_with('-') ? digits.substr(1) : digits;
-  if (unsigned_digits.empty() || unsigned_digits.back() < '0' || unsigned_digits.front() < '0')
-    return std::nullopt;
-  if (unsigned_digits.size() > 1 && unsigned_digits[0] == '0' && unsigned_digits[1] >= '0')
-    return std::nullopt;
+  if (!is_plain_number(digits)) return std::nullopt;
   auto value = !integer                  ? read_as<double>(digits)
                : digits.starts_with('-') ? read_as<std::int64_t>(digits)
                                          : read_as<std::uint64_t>(digits);

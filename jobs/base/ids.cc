@@ -24,8 +24,7 @@ std::uint64_t draw_40_bits() {
 
 }  // namespace
 
-std::string IdMaker::make(std::string_view prefix, std::int64_t now_unix_ms) {
-  const std::lock_guard lock(mutex_);
+void IdMaker::advance(std::int64_t now_unix_ms) {
   if (now_unix_ms > last_ms_) {
     last_ms_ = now_unix_ms;
     chance_high_ = draw_40_bits();
@@ -37,6 +36,11 @@ std::string IdMaker::make(std::string_view prefix, std::int64_t now_unix_ms) {
     if (chance_low_ == 0) chance_high_ = (chance_high_ + 1) & kHalfChanceMask;
     if (chance_low_ == 0 && chance_high_ == 0) ++last_ms_;
   }
+}
+
+std::string IdMaker::make(std::string_view prefix, std::int64_t now_unix_ms) {
+  const std::lock_guard lock(mutex_);
+  advance(now_unix_ms);
   std::string id(prefix);
   append_base32(static_cast<std::uint64_t>(last_ms_), kTimeLength, id);
   append_base32(chance_high_, kHalfChanceLength, id);

@@ -16,6 +16,9 @@ class IdMaker {
   [[nodiscard]] std::string make(std::string_view prefix, std::int64_t now_unix_ms);
 
  private:
+  /// Moves on to a later id, by chance in a new millisecond, else by counting. mutex_ is held.
+  void advance(std::int64_t now_unix_ms);
+
   std::mutex mutex_;  // guards the rest
   std::int64_t last_ms_ = 0;
   std::uint64_t chance_high_ = 0;  ///< 40 bits

@@ -124,31 +124,43 @@ std::pair<json, json> structural_loss_of(const ResultTable& results, const RowGr
   return {*taken, all > 0.0 ? json(*taken / all) : json()};
 }
 
+/// Groups in the order of their values along a column.
+using GroupLine = std::map<double, std::size_t>;
+
+/// The groups with ratios, in lines along a column; all else is equal in a line.
+std::map<json, GroupLine> find_lines(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs,
+                                     std::size_t along) {
+  std::map<json, GroupLine> lines;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto x = number_in(groups[g].values[along]);  // jobs of another linkage may have none
+    if (!pairs[g].ratio || !x) continue;
+    json others = groups[g].values;
+    others.erase(along);
+    lines[others][*x] = g;
+  }
+  return lines;
+}
+
+void find_reversals_in(const GroupLine& line, const std::vector<Pair>& pairs, std::vector<json>& reversals) {
+  int last_side = 0;
+  double last_x = 0.0;
+  for (const auto& [x, group] : line) {
+    const int side = side_of(pairs[group]);
+    if (side == 0) continue;
+    if (side == -last_side) reversals[group] = last_x;
+    last_side = side;
+    last_x = x;
+  }
+}
+
 /// For each group the last value before it along a column at which every ratio was on one side of 1, if all
 /// are on the other side here.
 std::vector<json> find_reversals(const std::vector<RowGroup>& groups, const std::vector<Pair>& pairs,
                                  std::optional<std::size_t> along) {
   std::vector<json> reversals(groups.size());
   if (!along) return reversals;
-  std::map<json, std::map<double, std::size_t>> lines;  // all else equal, in the order of the values along
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const auto x = number_in(groups[g].values[*along]);  // jobs of another linkage may have none
-    if (!pairs[g].ratio || !x) continue;
-    json others = groups[g].values;
-    others.erase(*along);
-    lines[others][*x] = g;
-  }
-  for (const auto& [others, line] : lines) {
-    int last_side = 0;
-    double last_x = 0.0;
-    for (const auto& [x, group] : line) {
-      const int side = side_of(pairs[group]);
-      if (side == 0) continue;
-      if (side == -last_side) reversals[group] = last_x;
-      last_side = side;
-      last_x = x;
-    }
-  }
+  for (const auto& [others, line] : find_lines(groups, pairs, *along))
+    find_reversals_in(line, pairs, reversals);
   return reversals;
 }
 

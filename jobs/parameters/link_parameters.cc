@@ -135,6 +135,24 @@ bool is_possible(const std::array<double, 3>& moments) {
                      [&](double moment) { return moment > 0.0 && 2.0 * moment <= sum * (1.0 + kRounding); });
 }
 
+/// Why no body has the moments of a link; empty if one has.
+std::string describe_inertia_fault(std::size_t i, const json& completed) {
+  const json& link = completed.at("links").at(kLinkNames[i]);
+  auto moments = link.at(kInertiaKey).get<std::array<double, 3>>();
+  if (!is_possible(moments))
+    return "no body has these moments: each must be at most the sum of the other two";
+  const double to_centre = 0.5 * length_of(i, completed);
+  if (!(to_centre > 0.0)) return "";
+  const double steiner = link.at(kMassKey).get<double>() * to_centre * to_centre;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (axis != axis_of(i)) moments[axis] -= steiner;
+  if (is_possible(moments)) return "";
+  const std::string across = i == kCross ? "I_x and I_y" : "I_y and I_z";
+  return "no body has these moments: about the centre of mass, in the middle of the link, " + across +
+         " are less by m (l/2)^2 = " + readable_number(steiner) +
+         " kg m^2, and each must be positive and at most the sum of the other two";
+}
+
 }  // namespace
 
 std::vector<Fault> find_link_faults(const json& given) {
@@ -164,23 +182,8 @@ json complete_links(const json& given, const json& completed) {
 std::vector<Fault> find_inertia_faults(const json& completed) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < kLinkNames.size(); ++i) {
-    const json& link = completed.at("links").at(kLinkNames[i]);
-    auto moments = link.at(kInertiaKey).get<std::array<double, 3>>();
-    const std::string pointer = link_pointer(kLinkNames[i], kInertiaKey);
-    if (!is_possible(moments)) {
-      faults.push_back({pointer, "no body has these moments: each must be at most the sum of the other two"});
-    } else if (const double to_centre = 0.5 * length_of(i, completed); to_centre > 0.0) {
-      const double steiner = link.at(kMassKey).get<double>() * to_centre * to_centre;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (axis != axis_of(i)) moments[axis] -= steiner;
-      if (!is_possible(moments)) {
-        const std::string across = i == kCross ? "I_x and I_y" : "I_y and I_z";
-        faults.push_back(
-            {pointer, "no body has these moments: about the centre of mass, in the middle of the link, " +
-                          across + " are less by m (l/2)^2 = " + readable_number(steiner) +
-                          " kg m^2, and each must be positive and at most the sum of the other two"});
-      }
-    }
+    std::string detail = describe_inertia_fault(i, completed);
+    if (!detail.empty()) faults.push_back({link_pointer(kLinkNames[i], kInertiaKey), std::move(detail)});
   }
   return faults;
 }

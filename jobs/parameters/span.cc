@@ -22,6 +22,28 @@ std::string describe_end_fault(const json& span, const char* end, bool logarithm
                                                                 : "must be a number";
 }
 
+/// Adds the faults of unknown keys.
+void check_keys_of_span(const json& span, std::span<const std::string_view> other_keys,
+                        const std::string& pointer, std::vector<Fault>& faults) {
+  std::vector<std::string_view> keys{"from", "to", "scale"};
+  keys.insert(keys.end(), other_keys.begin(), other_keys.end());
+  for (const auto& [key, value] : span.items()) {
+    if (std::ranges::find(keys, key) == keys.end())
+      faults.push_back({pointer + pointer_token(key), describe_unknown_key(key, keys)});
+  }
+}
+
+/// Adds the faults of a span's scale and ends.
+void check_range_of_span(const json& span, const std::string& pointer, std::vector<Fault>& faults) {
+  const json scale = span.value("scale", json("linear"));
+  if (scale != "linear" && scale != "log")
+    faults.push_back({pointer + "/scale", "must be \"linear\" or \"log\""});
+  for (const char* end : {"from", "to"}) {
+    std::string detail = describe_end_fault(span, end, scale == "log");
+    if (!detail.empty()) faults.push_back({pointer + "/" + end, std::move(detail)});
+  }
+}
+
 /// Place of the first digit: 0 of 1 to 9.99, -1 of 0.1 to 0.999. @param x  not 0
 int first_place(double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); }
 
@@ -62,23 +84,13 @@ double decimal_between(const Span& span, long double part, double steps) {
 
 std::optional<Span> read_span(const json& span, std::span<const std::string_view> other_keys,
                               const std::string& pointer, std::vector<Fault>& faults) {
-  std::vector<std::string_view> keys{"from", "to", "scale"};
-  keys.insert(keys.end(), other_keys.begin(), other_keys.end());
   const std::size_t before = faults.size();
-  for (const auto& [key, value] : span.items()) {
-    if (std::ranges::find(keys, key) == keys.end())
-      faults.push_back({pointer + pointer_token(key), describe_unknown_key(key, keys)});
-  }
-  const json scale = span.value("scale", json("linear"));
-  if (scale != "linear" && scale != "log")
-    faults.push_back({pointer + "/scale", "must be \"linear\" or \"log\""});
-  for (const char* end : {"from", "to"}) {
-    std::string detail = describe_end_fault(span, end, scale == "log");
-    if (!detail.empty()) faults.push_back({pointer + "/" + end, std::move(detail)});
-  }
+  check_keys_of_span(span, other_keys, pointer, faults);
+  check_range_of_span(span, pointer, faults);
   if (faults.size() != before) return std::nullopt;
-  const Span read{.from = span.at("from").get<double>(), .to = span.at("to").get<double>(),
-                  .logarithmic = scale == "log"};
+  const Span read{.from = span.at("from").get<double>(),
+                  .to = span.at("to").get<double>(),
+                  .logarithmic = span.value("scale", "linear") == "log"};
   if (read.logarithmic && !std::isnormal(read.to / read.from)) {
     faults.push_back({pointer + "/to", "must be 1e-307 to 1e308 times from, as the scale is \"log\""});
     return std::nullopt;
