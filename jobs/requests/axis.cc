@@ -98,36 +98,31 @@ void collect_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, 
   }
 }
 
+/// Why a path that is not known cannot be swept.
+std::string describe_path_fault(const std::string& path) {
+  if (is_path_in_description(path))
+    return "is longer than any place in a description: at most " + std::to_string(kLongestLinkagePath) +
+           " bytes";
+  if (path == kLinkageKey)
+    return "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole "
+           "linkages are cases";
+  if (path == kKeepKey) return "is the same for all jobs of a sweep; it stands beside \"sweep\"";
+  if (path == kWearKey) return "worn bores are cases, each with its lists";
+  if (is_varied_by_cases(path))
+    return "drives are cases; the numbers of one are swept one by one: \"crank_drive.voltage_v\", say";
+  if (path == "links") return "the parts of links are swept one by one: \"links.1,3.mass_kg\", say";
+  const std::vector<std::string_view> known(known_paths().begin(), known_paths().end());
+  return describe_unknown_key(path, known, "GET /v1/parameters");
+}
+
 }  // namespace
 
 bool is_known_path(const std::string& path, const std::string& pointer, std::vector<Fault>& faults) {
   const auto& known = known_paths();
-  const bool in_linkage = is_path_in_description(path);
   if (std::find(known.begin(), known.end(), path) != known.end() ||
-      (in_linkage && path.size() <= kLongestLinkagePath))
+      (is_path_in_description(path) && path.size() <= kLongestLinkagePath))
     return true;
-  if (in_linkage) {
-    faults.push_back({pointer, "is longer than any place in a description: at most " +
-                                   std::to_string(kLongestLinkagePath) + " bytes"});
-  } else if (path == kLinkageKey) {
-    faults.push_back(
-        {pointer,
-         "the numbers of a description are swept one by one: \"linkage.bodies.rod.mass_kg\", say; whole "
-         "linkages are cases"});
-  } else if (path == kKeepKey) {
-    faults.push_back({pointer, "is the same for all jobs of a sweep; it stands beside \"sweep\""});
-  } else if (path == kWearKey) {
-    faults.push_back({pointer, "worn bores are cases, each with its lists"});
-  } else if (is_varied_by_cases(path)) {
-    faults.push_back({pointer,
-                      "drives are cases; the numbers of one are swept one by one: "
-                      "\"crank_drive.voltage_v\", say"});
-  } else if (path == "links") {
-    faults.push_back({pointer, "the parts of links are swept one by one: \"links.1,3.mass_kg\", say"});
-  } else {
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    faults.push_back({pointer, describe_unknown_key(path, views, "GET /v1/parameters")});
-  }
+  faults.push_back({pointer, describe_path_fault(path)});
   return false;
 }
 

@@ -67,6 +67,13 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
+/// What a description is called: its name, law or actuator.
+/// @param name_key  member of a description that names it
+std::string find_given_name(const json& described, const char* name_key) {
+  if (!described.is_object()) return "";
+  return described.value(name_key, described.value("actuator", std::string("described")));
+}
+
 /// Short form of a value in one line: of a worn bore the largest depth, of a described linkage its name, of a
 /// drive its law or actuator, with a number where another one of the sweep has that name already.
 class ShownValues {
@@ -84,7 +91,7 @@ class ShownValues {
 
  private:
   /// Names the descriptions under a key that the cases give: numbers inside them may be swept beside them.
-  /// @param name_key   member of a description that names it
+  /// @param name_key     see find_given_name()
   /// @param undescribed  value of a case that describes none
   void name_cases(const SweepRequest& sweep, std::string_view key, const char* name_key,
                   const json& undescribed) {
@@ -94,10 +101,7 @@ class ShownValues {
     std::vector<json>& shown_names = names_[std::string(key)];
     for (const json& given : sweep.cases) {
       const json described = given.value(std::string(key), undescribed);
-      const std::string name =
-          described.is_object()
-              ? described.value(name_key, described.value("actuator", std::string("described")))
-              : "";
+      const std::string name = find_given_name(described, name_key);
       const auto [shown, is_new] = names.try_emplace(described, name);
       while (is_new && !taken.insert(shown->second).second)
         shown->second = name + " #" + std::to_string(2 + namesakes[name]++);
@@ -107,6 +111,14 @@ class ShownValues {
 
   std::map<std::string, std::vector<json>, std::less<>> names_;  ///< by key, one a case
 };
+
+/// The place in a case, beneath it, that gave the parameter of the pointer its value.
+std::optional<std::string> find_place_in_case(const json& given, const std::string& pointer) {
+  if (given.contains(json::json_pointer(pointer))) return pointer;
+  for (const auto& [key, value] : given.items())
+    if (is_path_in_description(key) && pointer_of_path(key) == pointer) return pointer_token(key);
+  return std::nullopt;
+}
 
 /// Gathers the faults of points: one entry for each place in the request, however many points share it.
 class PointFaults {
@@ -148,11 +160,8 @@ class PointFaults {
     if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end())
       return "/design/over" + pointer_token(path);
     if (!sweep_.cases.empty()) {
-      const json& given = sweep_.cases[position.case_index];
-      const std::string place = "/cases" + pointer_token(std::to_string(position.case_index));
-      if (given.contains(json::json_pointer(pointer))) return place + pointer;
-      for (const auto& [key, value] : given.items())
-        if (is_path_in_description(key) && pointer_of_path(key) == pointer) return place + pointer_token(key);
+      const auto place = find_place_in_case(sweep_.cases[position.case_index], pointer);
+      if (place) return "/cases" + pointer_token(std::to_string(position.case_index)) + *place;
     }
     return "/parameters" + pointer;
   }
@@ -197,6 +206,17 @@ std::uint64_t count_replicates(const json& completed, const Replicates& replicat
   return replicates.count;
 }
 
+/// Gives the k-th replicate the contact stiffness of the point, perturbed. @throws InvalidRequest if that is
+/// out of its range
+void perturb(const json& completed, const Replicates& replicates, std::uint64_t k, json& replicate) {
+  const double scale = completed.at(kStiffnessKey).get<double>() *
+                       replicate_factor(replicates.seed, k, replicates.perturbation);
+  replicate[kStiffnessKey] = scale;
+  if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty())
+    throw InvalidRequest(std::vector<Fault>{
+        {"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
+}
+
 /// Gives a replicate the tolerances of the point times the factor. @throws InvalidRequest if one is too small
 void tighten(const json& completed, double factor, json& replicate) {
   for (const char* const key : {"relative_tolerance", "absolute_tolerance"}) {
@@ -221,13 +241,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, const json& swep
         {"/replicates/count",
          "the sweep would have more than " + std::to_string(max_jobs) + " jobs with its replicates"}});
   for (std::uint64_t k = 0; k < count; ++k) {
-    const double scale = completed.at(kStiffnessKey).get<double>() *
-                         replicate_factor(sweep.replicates.seed, k, sweep.replicates.perturbation);
-    replicate[kStiffnessKey] = scale;
-    if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty()) {
-      throw InvalidRequest(std::vector<Fault>{
-          {"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
-    }
+    perturb(completed, sweep.replicates, k, replicate);
     if (k == 1) tighten(completed, sweep.replicates.tolerance_factor, replicate);
     plan.jobs.push_back(
         make_job(replicate, sweep.replicates.requested ? std::optional(k) : std::nullopt, swept.dump()));

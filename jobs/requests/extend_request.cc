@@ -125,14 +125,18 @@ class Union {
     for (std::size_t i = 0; i < added.size(); ++i) add_case(added[i], i, swept);
   }
 
+  /// The parameters of a case that are whole: the union judges numbers inside a description.
+  [[nodiscard]] static json without_description_numbers(const ordered_json& given) {
+    json whole = given;
+    if (!given.is_object()) return whole;
+    for (const auto& [path, value] : given.items())
+      if (is_path_in_description(path)) whole.erase(path);
+    return whole;
+  }
+
   void add_case(const ordered_json& given, std::size_t index, const std::set<std::string>& swept) {
     const std::string pointer = "/cases/" + std::to_string(index);
-    json whole = given;
-    if (given.is_object()) {  // the union judges numbers inside a description
-      for (const auto& [path, value] : given.items())
-        if (is_path_in_description(path)) whole.erase(path);
-    }
-    const auto value_faults = find_value_faults(whole);
+    const auto value_faults = find_value_faults(without_description_numbers(given));
     for (const Fault& found : value_faults) fault(pointer + found.pointer, found.detail);
     if (!value_faults.empty()) return;
     for (const std::string& path : paths_of(given)) {

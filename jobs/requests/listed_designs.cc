@@ -49,6 +49,37 @@ void check_centre(const ordered_json& design, std::vector<Fault>& faults) {
   }
 }
 
+/// Text that differs from that of every other point.
+std::string identify_point(const std::vector<Axis>& axes, std::size_t k) {
+  std::string identity;
+  for (const Axis& axis : axes) identity += value_identity(axis.path, axis.values[k]) + ' ';
+  return identity;
+}
+
+/// Nothing is known of parameters with faults.
+bool are_parameters_known(const std::vector<Fault>& faults) {
+  return std::ranges::none_of(
+      faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
+}
+
+/// Number of axes that have the centre among their values. Adds the faults of a centre that lacks a value.
+std::uint64_t count_axes_with_centre(const ordered_json& design, const json& parameters,
+                                     std::vector<Fault>& faults) {
+  const auto centre = centre_of(design, parameters);
+  std::uint64_t count = 0;
+  std::size_t next = 0;
+  for (const auto& [path, axis] : design.at("over").items()) {
+    const json& value = centre[next++];
+    if (value.is_null() || (is_path_in_description(path) && !value.is_number())) {
+      if (are_parameters_known(faults))
+        faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
+    } else {
+      count += axis_contains(path, axis, value) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 }  // namespace
 
 std::uint64_t count_zip(const ordered_json& design, const json&, std::vector<Fault>& faults) {
@@ -73,12 +104,8 @@ DesignPoints make_zip(const ordered_json& design, const json&, std::vector<Fault
   if (faults.size() != before) return points;
   std::set<std::string> seen;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    std::string identity;
-    for (const Axis& axis : axes) {
-      points[k].push_back(axis.values[k]);
-      identity += value_identity(axis.path, axis.values[k]) + ' ';
-    }
-    if (!seen.insert(identity).second)
+    for (const Axis& axis : axes) points[k].push_back(axis.values[k]);
+    if (!seen.insert(identify_point(axes, k)).second)
       faults.push_back(
           {axes.front().pointers[k], "this value and those beside it are one of the points already"});
   }
@@ -93,20 +120,7 @@ std::uint64_t count_one_at_a_time(const ordered_json& design, const json& parame
   for (const auto& [path, axis] : design.at("over").items())
     count += count_axis_values(path, axis, pointer_of_axis(path), faults);
   if (faults.size() != before) return 0;
-  const auto centre = centre_of(design, parameters);
-  // Nothing is known of parameters with faults.
-  const bool are_known = std::ranges::none_of(
-      faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
-  std::size_t next = 0;
-  for (const auto& [path, axis] : design.at("over").items()) {
-    const json& value = centre[next++];
-    if (value.is_null() || (is_path_in_description(path) && !value.is_number())) {
-      if (are_known)
-        faults.push_back({"/design/centre", "must have a value for " + path + ": the parameters have none"});
-    } else {
-      count -= axis_contains(path, axis, value) ? 1 : 0;
-    }
-  }
+  count -= count_axes_with_centre(design, parameters, faults);
   return faults.size() == before ? count : 0;
 }
 

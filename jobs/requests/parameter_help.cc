@@ -29,6 +29,14 @@ std::string line_of(std::string key, const std::string& value, std::string_view 
          std::string(help) + "\n";
 }
 
+std::string parameter_line(const ParameterInfo& info) {
+  const nlohmann::json value = default_value(info);
+  const bool choice = info.kind == ParameterKind::kChoice;
+  return line_of(std::string(info.key),
+                 choice ? value.get<std::string>() : number_text(value.get<double>()), info.unit,
+                 choice ? words_of(info) : info.range.text(), info.help);
+}
+
 std::string link_line(const std::string& path, const nlohmann::json& defaults) {
   const bool mass = path.ends_with(kMassKey);
   return line_of(path, value_at_path(defaults, path).dump(), mass ? "kg" : "kg m^2",
@@ -40,13 +48,7 @@ std::string link_line(const std::string& path, const nlohmann::json& defaults) {
 
 std::string parameter_help() {
   std::string text;
-  for (const ParameterInfo& info : parameter_table()) {
-    const nlohmann::json value = default_value(info);
-    const bool choice = info.kind == ParameterKind::kChoice;
-    text +=
-        line_of(std::string(info.key), choice ? value.get<std::string>() : number_text(value.get<double>()),
-                info.unit, choice ? words_of(info) : info.range.text(), info.help);
-  }
+  for (const ParameterInfo& info : parameter_table()) text += parameter_line(info);
   text += line_of(std::string(kLinkageKey), std::string(kRpsupName), "", "or an object",
                   "The linkage; an object describes another one");
   text += line_of(std::string(kWearKey), "none", "", "lists", kWearHelp);

@@ -35,28 +35,31 @@ json schema_of(const ParameterInfo& info) {
   return schema;
 }
 
-/// @param moments  where the default moments come from: the paper's rows of links (2,1) and (2,2) are those
+/// @param source  where the default moments come from: the paper's rows of links (2,1) and (2,2) are those
 ///     of no body
+json schema_of_moments(const Eigen::Vector3d& moments, DefaultSource source) {
+  json moment{{"type", "number"}};
+  add_range(kInertiaRange, moment);
+  return {{"type", "array"},
+          {"minItems", 3},
+          {"maxItems", 3},
+          {"items", moment},
+          {"x-unit", "kg m^2"},
+          {"description",
+           "Moments (I_x, I_y, I_z) about the link's frame origin. A default scales with the link's mass, "
+           "length and diameter as a uniform rod's"},
+          {"default", {moments.x(), moments.y(), moments.z()}},
+          {"x-default-source", source_name(source)}};
+}
+
+/// @param moments  where the default moments come from
 json schema_of_link(const engine::LinkInertia& link, DefaultSource moments) {
   json mass{{"type", "number"}, {"description", "Mass of the link"}, {"default", link.mass}, {"x-unit", "kg"},
             {"x-default-source", source_name(DefaultSource::kPaper)}};
   add_range(kMassRange, mass);
-  json moment{{"type", "number"}};
-  add_range(kInertiaRange, moment);
-  const json inertia{
-      {"type", "array"},
-      {"minItems", 3},
-      {"maxItems", 3},
-      {"items", moment},
-      {"x-unit", "kg m^2"},
-      {"description",
-       "Moments (I_x, I_y, I_z) about the link's frame origin. A default scales with the link's mass, length "
-       "and "
-       "diameter as a uniform rod's"},
-      {"default", {link.inertia.x(), link.inertia.y(), link.inertia.z()}},
-      {"x-default-source", source_name(moments)}};
-  return {{"type", "object"}, {"additionalProperties", false},
-          {"properties", {{kMassKey, mass}, {kInertiaKey, inertia}}}};
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"properties", {{kMassKey, mass}, {kInertiaKey, schema_of_moments(link.inertia, moments)}}}};
 }
 
 json schema_of_links() {
@@ -71,15 +74,17 @@ json schema_of_links() {
   return links;
 }
 
+json schema_of_kept_results() {
+  return {{"type", "string"}, {"enum", kKeepWords}, {"default", kKeepAll}, {"description", kKeepHelp}};
+}
+
 }  // namespace
 
 json parameter_schema() {
-  json properties{{kLinkageKey, linkage_schema()}, {"links", schema_of_links()}, {kWearKey, wear_schema()},
-                  {kKeepKey,
-                   {{"type", "string"},
-                    {"enum", kKeepWords},
-                    {"default", kKeepAll},
-                    {"description", kKeepHelp}}}};
+  json properties{{kLinkageKey, linkage_schema()},
+                  {"links", schema_of_links()},
+                  {kWearKey, wear_schema()},
+                  {kKeepKey, schema_of_kept_results()}};
   for (const RpsupDrive& drive : rpsup_drives()) {
     properties[drive.key] = drive_schema(drive.motion);
     properties[drive.key]["description"] = drive.help;

@@ -38,15 +38,8 @@ std::vector<std::string_view> known_keys() {
   return keys;
 }
 
-/// The faults of what is given beside a described linkage, and of the description: by itself, with the values
-/// given and else the defaults.
-void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
-  const json& linkage = given.at(kLinkageKey);
-  if (!linkage.is_object()) {
-    if (linkage != kRpsupName)
-      faults.push_back({"/linkage", "must be \"rpsup\", or an object that describes a linkage"});
-    return;
-  }
+/// The faults of what is given beside a described linkage.
+void collect_faults_beside_linkage(const json& given, std::vector<Fault>& faults) {
   for (const auto& [key, value] : given.items()) {
     const ParameterInfo* info = find_parameter(key);
     if (key == kWearKey)
@@ -56,6 +49,18 @@ void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
       faults.push_back({pointer_token(key),
                         "belongs to the linkage \"rpsup\"; a described linkage says it in its description"});
   }
+}
+
+/// The faults of what is given beside a described linkage, and of the description: by itself, with the values
+/// given and else the defaults.
+void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
+  const json& linkage = given.at(kLinkageKey);
+  if (!linkage.is_object()) {
+    if (linkage != kRpsupName)
+      faults.push_back({"/linkage", "must be \"rpsup\", or an object that describes a linkage"});
+    return;
+  }
+  collect_faults_beside_linkage(given, faults);
   if (faults.empty())
     (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters,
                        faults);
@@ -114,9 +119,8 @@ void add_material_faults(const json& completed, std::vector<Fault>& faults) {
   }
 }
 
-void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
-  const double duration = spec.options.duration;
-  const double samples = duration * spec.options.output_rate;
+void add_sample_faults(const JobSpec& spec, std::vector<Fault>& faults) {
+  const double samples = spec.options.duration * spec.options.output_rate;
   if (samples > kMostKeptSamples) {
     faults.push_back({"/output_rate_hz", "duration_s times output_rate_hz is " +
                                              readable_number(std::floor(samples)) + " samples; at most " +
@@ -127,7 +131,10 @@ void add_size_faults(const json& completed, const JobSpec& spec, std::vector<Fau
                                              " values; at most " + readable_number(kMostStoredValues) +
                                              " are kept"});
   }
-  const double steps = duration / number_at(completed, "step_s");
+}
+
+void add_step_faults(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
+  const double steps = spec.options.duration / number_at(completed, "step_s");
   if (spec.options.integrator == engine::Integrator::kRk4 &&
       steps > static_cast<double>(spec.options.step_limit)) {
     faults.push_back({"/step_s", "duration_s over step_s is " + readable_number(std::floor(steps)) +
@@ -221,31 +228,87 @@ std::string describe_misplaced(const std::string& key) {
   return "";
 }
 
+/// Why a key cannot have a value, or cannot stand here; empty if it can. Values with parts are not looked at.
+std::string describe_value_fault(const std::string& key, const json& value) {
+  if (key == kLinkageKey) return "";
+  if (key == kKeepKey) return describe_keep_fault(value);
+  if (const ParameterInfo* info = find_parameter(key)) return describe_fault(*info, value);
+  const std::string misplaced = describe_misplaced(key);
+  return misplaced.empty() ? describe_unknown_key(key, known_keys(), "GET /v1/parameters") : misplaced;
+}
+
+/// Drives with faults are left as they are given.
+void fill_in_drives(const json& given, json& completed) {
+  for (const RpsupDrive& drive : rpsup_drives()) {
+    if (!given.contains(drive.key)) continue;
+    std::vector<Fault> faults;  // of numbers inside that a sweep varies; find_combination_faults() tells them
+    check_drive(given.at(drive.key), drive.motion, "", faults);
+    completed[drive.key] =
+        faults.empty() ? canonical_drive(given.at(drive.key), drive.motion) : given.at(drive.key);
+  }
+}
+
+std::vector<Fault> find_description_faults(const json& completed) {
+  std::vector<Fault> faults;
+  const auto linkage =
+      read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults);
+  if (linkage) add_key_fault(*linkage, faults);
+  return faults;
+}
+
+std::vector<Fault> find_drive_faults(const json& completed) {
+  std::vector<Fault> faults;
+  for (const RpsupDrive& drive : rpsup_drives())
+    if (completed.contains(drive.key))
+      check_drive(completed.at(drive.key), drive.motion, pointer_token(drive.key), faults);
+  return faults;
+}
+
+/// Faults that only jobs of "rpsup" have.
+void add_rpsup_faults(const json& completed, std::vector<Fault>& faults) {
+  add_drive_faults(completed, faults);
+  add_link_faults(completed, faults);
+  if (faults.empty()) faults = find_inertia_faults(completed);
+}
+
+void write_drives(const json& completed, engine::RpsupParameters& parameters) {
+  for (const RpsupDrive& drive : rpsup_drives()) {
+    if (!completed.contains(drive.key)) continue;
+    const json& given = completed.at(drive.key);
+    if (is_actuator(given))
+      parameters.*drive.actuator = read_actuator(given, drive.motion, parameters);
+    else
+      parameters.*drive.law = read_drive(given, drive.motion, parameters);
+  }
+}
+
+/// What only jobs of "rpsup" have.
+void write_rpsup(const json& completed, engine::RpsupParameters& parameters) {
+  write_links(completed.at("links"), parameters);
+  if (completed.contains(kWearKey)) parameters.wear_depth = to_wear_depth(completed.at(kWearKey));
+  write_drives(completed, parameters);
+}
+
+void write_description(const json& description, JobSpec& spec) {
+  std::vector<Fault> faults;
+  spec.linkage = read_linkage(description, spec.parameters, faults);
+  if (!spec.linkage) throw InvalidRequest(std::move(faults));
+}
+
 }  // namespace
 
 std::vector<Fault> find_value_faults(const json& given) {
   if (!given.is_object()) return {{"", "must be an object of parameters"}};
-  const std::vector<std::string_view> known = known_keys();
   std::vector<Fault> faults;
   for (const auto& [key, value] : given.items()) {
-    if (key == "links") {
+    if (key == "links")
       std::ranges::move(find_link_faults(value), std::back_inserter(faults));
-    } else if (key == kWearKey) {
+    else if (key == kWearKey)
       std::ranges::move(find_wear_faults(value), std::back_inserter(faults));
-    } else if (key == kKeepKey) {
-      if (std::string detail = describe_keep_fault(value); !detail.empty())
-        faults.push_back({pointer_token(key), std::move(detail)});
-    } else if (const RpsupDrive* drive = find_rpsup_drive(key)) {
+    else if (const RpsupDrive* drive = find_rpsup_drive(key))
       check_drive(value, drive->motion, pointer_token(key), faults);
-    } else if (const ParameterInfo* info = find_parameter(key)) {
-      if (std::string detail = describe_fault(*info, value); !detail.empty())
-        faults.push_back({pointer_token(key), std::move(detail)});
-    } else if (key != kLinkageKey) {
-      const std::string misplaced = describe_misplaced(key);
-      faults.push_back({pointer_token(key), misplaced.empty()
-                                                ? describe_unknown_key(key, known, "GET /v1/parameters")
-                                                : misplaced});
-    }
+    else if (std::string detail = describe_value_fault(key, value); !detail.empty())
+      faults.push_back({pointer_token(key), std::move(detail)});
   }
   if (faults.empty() && given.contains(kLinkageKey)) collect_linkage_faults(given, faults);
   return faults;
@@ -273,36 +336,20 @@ json fill_in_defaults(const json& given) {
   if (!described) completed["links"] = complete_links(given.value("links", json::object()), completed);
   if (given.contains(kWearKey)) completed[kWearKey] = canonical_wear(given.at(kWearKey));
   if (keeps_metrics_alone(given)) completed[kKeepKey] = kKeepMetrics;
-  for (const RpsupDrive& drive : rpsup_drives()) {
-    if (!given.contains(drive.key)) continue;
-    std::vector<Fault> faults;  // of numbers inside that a sweep varies; find_combination_faults() tells them
-    check_drive(given.at(drive.key), drive.motion, "", faults);
-    completed[drive.key] =
-        faults.empty() ? canonical_drive(given.at(drive.key), drive.motion) : given.at(drive.key);
-  }
+  fill_in_drives(given, completed);
   return completed;
 }
 
 std::vector<Fault> find_combination_faults(const json& completed) {
-  std::vector<Fault> faults;
-  if (describes_linkage(completed)) {
-    const auto linkage =
-        read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults);
-    if (linkage) add_key_fault(*linkage, faults);
-    if (!faults.empty()) return faults;
-  } else {
-    for (const RpsupDrive& drive : rpsup_drives())
-      if (completed.contains(drive.key))
-        check_drive(completed.at(drive.key), drive.motion, pointer_token(drive.key), faults);
-    if (!faults.empty()) return faults;
-    add_drive_faults(completed, faults);
-    add_link_faults(completed, faults);
-    if (faults.empty()) faults = find_inertia_faults(completed);
-  }
+  const bool described = describes_linkage(completed);
+  std::vector<Fault> faults = described ? find_description_faults(completed) : find_drive_faults(completed);
+  if (!faults.empty()) return faults;
+  if (!described) add_rpsup_faults(completed, faults);
   const JobSpec spec = to_job_spec(completed);
   add_clearance_faults(completed, faults);
   add_material_faults(completed, faults);
-  add_size_faults(completed, spec, faults);
+  add_sample_faults(spec, faults);
+  add_step_faults(completed, spec, faults);
   // The engine may rely on what has been checked so far.
   if (faults.empty()) add_engine_fault(completed, spec, faults);
   return faults;
@@ -329,23 +376,10 @@ JobSpec to_job_spec(const json& completed_parameters) {
     if (find_replacing_drive(completed_parameters, info.key) == nullptr)
       info.write(spec, completed_parameters.at(info.key));
   }
-  if (!described) {
-    write_links(completed_parameters.at("links"), spec.parameters);
-    if (completed_parameters.contains(kWearKey))
-      spec.parameters.wear_depth = to_wear_depth(completed_parameters.at(kWearKey));
-    for (const RpsupDrive& drive : rpsup_drives()) {
-      if (!completed_parameters.contains(drive.key)) continue;
-      const json& given = completed_parameters.at(drive.key);
-      if (is_actuator(given))
-        spec.parameters.*drive.actuator = read_actuator(given, drive.motion, spec.parameters);
-      else
-        spec.parameters.*drive.law = read_drive(given, drive.motion, spec.parameters);
-    }
-  } else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty()) {
-    std::vector<Fault> faults;
-    spec.linkage = read_linkage(linkage, spec.parameters, faults);
-    if (!spec.linkage) throw InvalidRequest(std::move(faults));
-  }
+  if (!described)
+    write_rpsup(completed_parameters, spec.parameters);
+  else if (const json& linkage = completed_parameters.at(kLinkageKey); !linkage.empty())
+    write_description(linkage, spec);
   return spec;
 }
 

@@ -28,17 +28,20 @@ PlanBudget::PlanBudget(std::size_t max_jobs)
       bytes_(kBytesOfAJob * static_cast<double>(max_jobs)),
       bytes_of_jobs_(bytes_) {}
 
+void PlanBudget::take_closing_work(const nlohmann::json& completed, std::uint64_t points,
+                                   std::uint64_t replicates) {
+  const double work = calc_closing_work(
+      size_of_linkage(completed.at(kLinkageKey), completed.at("rigid_elements").get<std::size_t>()));
+  if (work * static_cast<double>(points) > work_)
+    refuse("the linkage is", points * replicates, "whose loops would all have to be closed",
+           work_ / work * static_cast<double>(replicates));
+  work_ -= work * static_cast<double>(points);
+}
+
 void PlanBudget::take(const nlohmann::json& completed, std::uint64_t points, std::uint64_t replicates) {
   const auto jobs = points * replicates;
   const bool is_described = describes_linkage(completed);
-  if (is_described) {
-    const double work = calc_closing_work(
-        size_of_linkage(completed.at(kLinkageKey), completed.at("rigid_elements").get<std::size_t>()));
-    if (work * static_cast<double>(points) > work_)
-      refuse("the linkage is", jobs, "whose loops would all have to be closed",
-             work_ / work * static_cast<double>(replicates));
-    work_ -= work * static_cast<double>(points);
-  }
+  if (is_described) take_closing_work(completed, points, replicates);
   const auto bytes = static_cast<double>(canonical_text(completed).size());
   if (bytes * static_cast<double>(jobs) > bytes_) {
     if (is_described) refuse("the linkage is", jobs, "each of which keeps its description", bytes_ / bytes);

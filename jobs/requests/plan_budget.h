@@ -25,6 +25,9 @@ class PlanBudget {
   void add_job(std::size_t bytes);
 
  private:
+  /// Takes the work of closing the loops of a described linkage at each point.
+  void take_closing_work(const nlohmann::json& completed, std::uint64_t points, std::uint64_t replicates);
+
   double work_;   ///< left of it, in checks of a linkage with few bodies
   double bytes_;  ///< left of them, for parameters
   double bytes_of_jobs_;  ///< left of them, of those of add_job()

@@ -51,6 +51,16 @@ std::uint64_t count_levels(const std::string& path, const json& given, std::vect
   return static_cast<std::uint64_t>(given.at("to").get<double>() - given.at("from").get<double>()) + 1;
 }
 
+/// Number of different points, at most kEndless. Adds the faults.
+std::uint64_t count_combinations(const ordered_json& over, std::vector<Fault>& faults) {
+  std::uint64_t combinations = 1;
+  for (const auto& [path, given] : over.items()) {
+    if (__builtin_mul_overflow(combinations, count_levels(path, given, faults), &combinations))
+      combinations = kEndless;
+  }
+  return combinations;
+}
+
 /// Value for a coordinate of the unit cube.
 class Dimension {
  public:
@@ -127,18 +137,10 @@ std::uint64_t count_blocks(const ordered_json& design, const char* key, std::uin
 
 std::uint64_t count_samples(const ordered_json& design, const json&, std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
-  std::string detail =
-      design.contains("count") ? describe_integer_fault(kCountRange, design.at("count")) : "is missing";
-  if (!detail.empty()) faults.push_back({"/design/count", std::move(detail)});
-  if (design.contains("seed")) {
-    if (detail = describe_integer_fault(kSeedRange, design.at("seed")); !detail.empty())
-      faults.push_back({"/design/seed", std::move(detail)});
-  }
-  std::uint64_t combinations = 1;
-  for (const auto& [path, given] : design.at("over").items()) {
-    if (__builtin_mul_overflow(combinations, count_levels(path, given, faults), &combinations))
-      combinations = kEndless;
-  }
+  if (!design.contains("count")) faults.push_back({"/design/count", "is missing"});
+  check_integer(design, "count", kCountRange, faults);
+  check_integer(design, "seed", kSeedRange, faults);
+  const std::uint64_t combinations = count_combinations(design.at("over"), faults);
   if (faults.size() != before) return 0;
   const auto count = design.at("count").get<std::uint64_t>();
   if (count > combinations) {

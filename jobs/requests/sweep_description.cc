@@ -26,6 +26,17 @@ std::optional<std::string> read_text(const json& request, const std::string& key
   return std::nullopt;
 }
 
+/// Adds a tag that is not in the list already.
+void add_tag(const json& given, const std::string& pointer, std::vector<std::string>& tags,
+             std::vector<Fault>& faults) {
+  const auto* const tag = given.get_ptr<const std::string*>();
+  if (tag == nullptr || tag->empty() || tag->size() > kLongestTag) {
+    faults.push_back({pointer, "must be a string of 1 to " + std::to_string(kLongestTag) + " bytes"});
+  } else if (std::ranges::find(tags, *tag) == tags.end()) {
+    tags.push_back(*tag);
+  }
+}
+
 /// Tags, each once, in their order.
 std::optional<std::vector<std::string>> read_tags(const json& request, std::vector<Fault>& faults) {
   if (!request.contains("tags")) return std::nullopt;
@@ -35,15 +46,8 @@ std::optional<std::vector<std::string>> read_tags(const json& request, std::vect
     return std::nullopt;
   }
   std::vector<std::string> tags;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const auto* const tag = given[i].get_ptr<const std::string*>();
-    if (tag == nullptr || tag->empty() || tag->size() > kLongestTag) {
-      faults.push_back({"/tags/" + std::to_string(i),
-                        "must be a string of 1 to " + std::to_string(kLongestTag) + " bytes"});
-    } else if (std::ranges::find(tags, *tag) == tags.end()) {
-      tags.push_back(*tag);
-    }
-  }
+  for (std::size_t i = 0; i < given.size(); ++i)
+    add_tag(given[i], "/tags/" + std::to_string(i), tags, faults);
   return tags;
 }
 

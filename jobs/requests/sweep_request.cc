@@ -114,50 +114,54 @@ class SweepParser {
     if (!replicates.is_object())
       return fault("/replicates",
                    "must be an object of count, perturbation, seed, only and tolerance_factor");
-    constexpr std::array<std::string_view, 5> kKeys{"count", "perturbation", "seed", "only",
-                                                    "tolerance_factor"};
     const std::size_t before = faults_.size();
     for (const auto& [key, value] : replicates.items()) {
-      const std::string detail = key == "count" ? describe_integer_fault(kCountRange, value)
-                                 : key == "perturbation"
-                                     ? describe_number_fault(kPerturbationRange, "", value)
-                                 : key == "seed" ? describe_integer_fault(kSeedRange, value)
-                                 : key == "only" ? check_replicated_values(value)
-                                 : key == "tolerance_factor"
-                                     ? describe_number_fault(kToleranceFactorRange, "", value)
-                                                 : describe_unknown_key(key, kKeys);
+      const std::string detail = check_replicates_member(key, value);
       if (!detail.empty()) fault("/replicates" + pointer_token(key), detail);
     }
     if (!replicates.contains("count")) fault("/replicates/count", "is missing");
-    if (faults_.size() > before) return;
-    sweep_.replicates = {.requested = true,
-                         .count = replicates.at("count").get<std::uint64_t>(),
-                         .only = replicates.value("only", json::object()),
-                         .perturbation = replicates.value("perturbation", Replicates{}.perturbation),
-                         .seed = replicates.value("seed", Replicates{}.seed),
-                         .tolerance_factor =
-                             replicates.value("tolerance_factor", Replicates{}.tolerance_factor)};
+    if (faults_.size() == before) sweep_.replicates = replicates_of(replicates);
+  }
+
+  /// @returns the fault of a member of "replicates"; empty if it has none
+  std::string check_replicates_member(const std::string& key, const json& value) {
+    constexpr std::array<std::string_view, 5> kKeys{"count", "perturbation", "seed", "only",
+                                                    "tolerance_factor"};
+    if (key == "count") return describe_integer_fault(kCountRange, value);
+    if (key == "perturbation") return describe_number_fault(kPerturbationRange, "", value);
+    if (key == "seed") return describe_integer_fault(kSeedRange, value);
+    if (key == "only") return check_replicated_values(value);
+    if (key == "tolerance_factor") return describe_number_fault(kToleranceFactorRange, "", value);
+    return describe_unknown_key(key, kKeys);
+  }
+
+  /// @param given  has no faults
+  [[nodiscard]] static Replicates replicates_of(const json& given) {
+    return {.requested = true,
+            .count = given.at("count").get<std::uint64_t>(),
+            .only = given.value("only", json::object()),
+            .perturbation = given.value("perturbation", Replicates{}.perturbation),
+            .seed = given.value("seed", Replicates{}.seed),
+            .tolerance_factor = given.value("tolerance_factor", Replicates{}.tolerance_factor)};
   }
 
   /// The lists of values of which points are replicated. @returns a fault of their object
   std::string check_replicated_values(const json& only) {
     if (!only.is_object()) return "must be an object of lists of values, by the names of parameters";
-    for (const auto& [path, values] : only.items()) {
-      const std::string pointer = "/replicates/only" + pointer_token(path);
-      if (is_varied_by_cases(path) || path == "links") {
-        fault(pointer, "must name a parameter with one value: not a drive, a linkage, links or a worn bore");
-        continue;
-      }
-      if (!is_known_path(path, pointer, faults_)) continue;
-      if (!values.is_array() || values.empty()) {
-        fault(pointer, "must be a list of one value or more");
-        continue;
-      }
-      for (std::size_t i = 0; i < values.size(); ++i)
-        for (const Fault& each : find_path_faults(path, values[i]))
-          fault(pointer + pointer_token(std::to_string(i)), each.detail);
-    }
+    for (const auto& [path, values] : only.items()) check_replicated_list(path, values);
     return "";
+  }
+
+  void check_replicated_list(const std::string& path, const json& values) {
+    const std::string pointer = "/replicates/only" + pointer_token(path);
+    if (is_varied_by_cases(path) || path == "links")
+      return fault(pointer,
+                   "must name a parameter with one value: not a drive, a linkage, links or a worn bore");
+    if (!is_known_path(path, pointer, faults_)) return;
+    if (!values.is_array() || values.empty()) return fault(pointer, "must be a list of one value or more");
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (const Fault& each : find_path_faults(path, values[i]))
+        fault(pointer + pointer_token(std::to_string(i)), each.detail);
   }
 
   void read_parameters() {
@@ -193,27 +197,33 @@ class SweepParser {
     case_count_ = cases.size();
   }
 
-  /// Multiplies what has been counted, and ends here if that is too much.
-  void check_size() {
+  /// Multiplies what has been counted. None if that is too large a number.
+  std::optional<std::uint64_t> count_jobs() {
     std::uint64_t jobs = case_count_;
     // Replicates of some sets only are counted as they are made.
     bool overflow =
         sweep_.replicates.only.empty() && __builtin_mul_overflow(jobs, sweep_.replicates.count, &jobs);
-    if (request_.contains("sweep")) {
-      if (!request_.at("sweep").is_object()) return fault("/sweep", "must be an object of axes");
+    if (request_.contains("sweep"))
       for (const auto& [path, axis] : request_.at("sweep").items()) {
         const std::uint64_t values = count_axis_values(path, axis, "/sweep" + pointer_token(path), faults_);
         overflow |= values > 0 && __builtin_mul_overflow(jobs, values, &jobs);
       }
-    }
     if (request_.contains("design")) {
       design_points_ = count_design_points(request_.at("design"), sweep_.parameters, faults_);
       overflow |= design_points_ > 0 && __builtin_mul_overflow(jobs, design_points_, &jobs);
     }
-    if (!overflow && jobs <= max_jobs_) return;
-    const std::string size = overflow
-                                 ? "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max())
-                                 : std::to_string(jobs);
+    return overflow ? std::nullopt : std::optional(jobs);
+  }
+
+  /// Ends here if the jobs would be too many.
+  void check_size() {
+    if (request_.contains("sweep") && !request_.at("sweep").is_object())
+      return fault("/sweep", "must be an object of axes");
+    const std::optional<std::uint64_t> jobs = count_jobs();
+    if (jobs && *jobs <= max_jobs_) return;
+    const std::string size =
+        jobs ? std::to_string(*jobs)
+             : "more than " + std::to_string(std::numeric_limits<std::uint64_t>::max());
     const char* const pointer = request_.contains("sweep")    ? "/sweep"
                                 : request_.contains("design") ? "/design"
                                 : request_.contains("cases")  ? "/cases"
@@ -269,9 +279,8 @@ class SweepParser {
   /// Every value has one place: parameters, the design, an axis, or the cases.
   void check_places() {
     std::set<std::string> fixed;
-    if (request_.contains("parameters")) {
-      for (const std::string& path : paths_of(request_.at("parameters"))) fixed.insert(path);
-    }
+    for (const std::string& path : paths_of(request_.value("parameters", ordered_json::object())))
+      fixed.insert(path);
     const std::set<std::string> design(sweep_.design.paths.begin(), sweep_.design.paths.end());
     for (const std::string& path : design) {
       if (fixed.contains(path)) fault("/design/over" + pointer_token(path), "stands in parameters, too");
@@ -282,6 +291,11 @@ class SweepParser {
       if (fixed.contains(axis.path)) fault("/sweep" + pointer_token(axis.path), "stands in parameters, too");
       if (design.contains(axis.path)) fault("/sweep" + pointer_token(axis.path), "stands in the design, too");
     }
+    check_places_of_cases(fixed, axes, design);
+  }
+
+  void check_places_of_cases(const std::set<std::string>& fixed, const std::set<std::string>& axes,
+                             const std::set<std::string>& design) {
     for (std::size_t i = 0; i < sweep_.cases.size(); ++i) {
       for (const std::string& path : paths_of(request_.at("cases")[i])) {
         const std::string place = is_path_in_description(path) ? pointer_token(path) : pointer_of_path(path);
@@ -294,26 +308,31 @@ class SweepParser {
     }
   }
 
+  /// Whether there is a description that has the path. Without one, that is a fault.
+  bool has_number_at(const std::string& path, const json& given, const std::string& pointer) {
+    const std::string detail = describe_description_path_fault(given, path);
+    if (!detail.empty()) fault(pointer, detail);
+    return detail.empty();
+  }
+
+  /// Looks at the descriptions of all cases, up to the first without the path.
+  void check_swept_path(const std::string& path, const std::string& pointer) {
+    if (!is_path_in_description(path)) return;
+    bool right = sweep_.cases.empty() ? has_number_at(path, sweep_.parameters, pointer) : true;
+    for (const json& each : sweep_.cases)
+      right = right && has_number_at(path, whole_parameters_of(sweep_.parameters, each), pointer);
+  }
+
   /// Numbers inside a description can only be swept where there is one that has them.
   void check_linkage_paths() {
-    const auto check_in = [&](const json& given, const std::string& path, const std::string& pointer) {
-      const std::string detail = describe_description_path_fault(given, path);
-      if (!detail.empty()) fault(pointer, detail);
-      return detail.empty();
-    };
-    const auto check = [&](const std::string& path, const std::string& pointer) {
-      if (!is_path_in_description(path)) return;
-      bool right = sweep_.cases.empty() ? check_in(sweep_.parameters, path, pointer) : true;
-      for (const json& each : sweep_.cases)
-        right = right && check_in(whole_parameters_of(sweep_.parameters, each), path, pointer);
-    };
-    for (const Axis& axis : sweep_.axes) check(axis.path, "/sweep" + pointer_token(axis.path));
-    for (const std::string& path : sweep_.design.paths) check(path, "/design/over" + pointer_token(path));
+    for (const Axis& axis : sweep_.axes) check_swept_path(axis.path, "/sweep" + pointer_token(axis.path));
+    for (const std::string& path : sweep_.design.paths)
+      check_swept_path(path, "/design/over" + pointer_token(path));
     for (std::size_t i = 0; i < sweep_.cases.size() && sweep_.cases[i].is_object(); ++i) {
       for (const auto& [path, value] : sweep_.cases[i].items()) {
         if (is_path_in_description(path))
-          check_in(whole_parameters_of(sweep_.parameters, sweep_.cases[i]), path,
-                   "/cases/" + std::to_string(i) + pointer_token(path));
+          has_number_at(path, whole_parameters_of(sweep_.parameters, sweep_.cases[i]),
+                        "/cases/" + std::to_string(i) + pointer_token(path));
       }
     }
   }
