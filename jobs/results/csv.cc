@@ -43,6 +43,15 @@ void append_cell(std::string& csv, const nlohmann::json& value) {
 constexpr std::array<const char*, 5> kReplicateColumns{
     "replicates_count", "replicates_mean", "replicates_spread", "replicates_min", "replicates_max"};
 
+void append_head(std::string& csv, const ResultTable& table) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    csv += (i > 0 ? "," : "") + text_cell(table.columns[i]);
+  if (!table.replicates.empty()) {
+    for (const char* column : kReplicateColumns) csv += std::string(",") + column;
+  }
+  csv += kLineEnd;
+}
+
 /// Their cells, each after a comma: other columns stand before them.
 void append_replicate_cells(std::string& csv, const ReplicateStatistics& set) {
   csv += "," + std::to_string(set.count);
@@ -56,12 +65,7 @@ void append_replicate_cells(std::string& csv, const ReplicateStatistics& set) {
 
 std::string to_csv(const ResultTable& table) {
   std::string csv;
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    csv += (i > 0 ? "," : "") + text_cell(table.columns[i]);
-  if (!table.replicates.empty()) {
-    for (const char* column : kReplicateColumns) csv += std::string(",") + column;
-  }
-  csv += kLineEnd;
+  append_head(csv, table);
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const auto& row = table.rows[r];
     for (std::size_t i = 0; i < row.size(); ++i) {

@@ -8,6 +8,15 @@
 #include "jobs/results/name_list.h"
 
 namespace jobs {
+namespace {
+
+std::string describe_states(std::span<const std::string_view> states) {
+  std::string names;
+  for (const std::string_view state : states) names += (names.empty() ? "" : ", ") + std::string(state);
+  return "must be one of " + names;
+}
+
+}  // namespace
 
 PageChecker::PageChecker(const PageQuery& query, std::string_view id_prefix,
                          std::span<const std::string> keys, std::span<const std::string_view> states) {
@@ -17,11 +26,8 @@ PageChecker::PageChecker(const PageQuery& query, std::string_view id_prefix,
         {"/limit", "must be an integer in [1, " + std::to_string(PageQuery::kLargestLimit) + "]"});
   if (!query.cursor.empty() && !is_id(query.cursor, id_prefix))
     faults.push_back({"/cursor", "must be the next_cursor of another page"});
-  if (!query.state.empty() && std::ranges::find(states, query.state) == states.end()) {
-    std::string names;
-    for (const std::string_view state : states) names += (names.empty() ? "" : ", ") + std::string(state);
-    faults.push_back({"/state", "must be one of " + names});
-  }
+  if (!query.state.empty() && std::ranges::find(states, query.state) == states.end())
+    faults.push_back({"/state", describe_states(states)});
   if (!query.fields.empty()) {
     for (const std::size_t index : find_names(split_names(query.fields, keys), keys, {}, "/fields", faults))
       wanted_.push_back(keys[index]);

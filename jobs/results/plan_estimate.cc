@@ -38,16 +38,21 @@ struct NewJobs {
   }
 };
 
-}  // namespace
-
-json plan_estimate_json(const SweepPlan& plan, const PlanCosts& costs, int threads) {
-  NewJobs estimate;
+NewJobs sum_new_jobs(const SweepPlan& plan, const PlanCosts& costs) {
+  NewJobs sums;
   std::set<std::string_view> planned;  // equal jobs are computed once
   for (const PlannedJob& job : plan.jobs) {
     if (costs.stored.contains(job.content_id)) continue;
     if (plan.reuse && !planned.insert(job.content_id).second) continue;
-    estimate.add(job, costs.kinds.at(job.kind));
+    sums.add(job, costs.kinds.at(job.kind));
   }
+  return sums;
+}
+
+}  // namespace
+
+json plan_estimate_json(const SweepPlan& plan, const PlanCosts& costs, int threads) {
+  const NewJobs estimate = sum_new_jobs(plan, costs);
   std::int64_t measured = 0;
   for (const std::string& kind : estimate.measured) measured += costs.kinds.at(kind).measured;
   const bool known = estimate.unmeasured.empty();

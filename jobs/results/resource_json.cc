@@ -44,6 +44,21 @@ json run_json(const RunRow& run, std::int64_t attempts, bool reused) {
           {"reused", reused}};
 }
 
+/// A run of this process.
+RunRow own_run(const RunRecord& record) {
+  const Provenance& own = own_provenance();
+  return {.wall_time_s = record.wall_time_s,
+          .cpu_time_s = record.cpu_time_s,
+          .host = own.host,
+          .cpu = own.cpu,
+          .version = own.version,
+          .commit = own.commit,
+          .compiler = own.compiler,
+          .engine = own.engine,
+          .libm = own.libm,
+          .numerics = own.numerics};
+}
+
 json job_links(const JobRow& row) {
   const std::string self = "/v1/jobs/" + row.id;
   return {{"self", self}, {"trajectory", self + "/trajectory"},
@@ -55,6 +70,18 @@ json study_path(const std::optional<std::string>& id) {
   const auto kind = std::ranges::find_if(
       kStudyKinds, [&](const StudyKindInfo& one) { return id->starts_with(one.id_prefix); });
   return std::string(kind->path) + "/" + *id;
+}
+
+json sweep_links(const SweepRow& row) {
+  const std::string self = "/v1/sweeps/" + row.id;
+  return {{"self", self},
+          {"results", self + "/results"},
+          {"events", self + "/events"},
+          {"cancel", self + "/cancel"},
+          {"retry", self + "/retry"},
+          {"extend", self + "/extend"},
+          {"move", self + "/move"},
+          {"study", study_path(row.study_id)}};
 }
 
 json counts_json(const StateCounts& counts) {
@@ -86,22 +113,25 @@ MetricColumns metric_columns(const std::vector<std::string>& keys, std::size_t f
   return columns;
 }
 
+/// Adds the metrics of a job with these parameters that are not there already.
+void add_metric_keys(const json& parameters, std::vector<std::string>& keys) {
+  for (const engine::QuantityInfo& metric : metric_table(parameters))
+    if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
+}
+
 /// The metrics of a sweep: those of all the linkages that its cases have, each key once.
 std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
   const json request = stored_json(sweep.request);
   const json common = request.value("parameters", json::object());
   std::vector<std::string> keys;
-  const auto add_of = [&](const json& given) {
-    for (const engine::QuantityInfo& metric : metric_table(given))
-      if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
-  };
   bool every_case = true;
   for (const json& each : request.value("cases", json::array())) {
-    if (each.contains(kLinkageKey)) add_of({{kLinkageKey, each.at(kLinkageKey)}});
+    if (each.contains(kLinkageKey)) add_metric_keys({{kLinkageKey, each.at(kLinkageKey)}}, keys);
     else every_case = false;
   }
   if (keys.empty() || !every_case)
-    add_of(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object());
+    add_metric_keys(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object(),
+                    keys);
   return keys;
 }
 
@@ -193,7 +223,6 @@ json job_json(const JobRow& row, Detail detail, const std::vector<std::string>& 
 }
 
 json sweep_json(const SweepRow& row, int threads, Detail detail, std::string_view default_executor) {
-  const std::string self = "/v1/sweeps/" + row.id;
   json sweep{{"id", row.id}, {"name", row.name}, {"notes", row.notes}, {"tags", stored_json(row.tags)},
              {"state", sweep_state(row.counts)},
              {"counts", counts_json(row.counts)},
@@ -202,10 +231,7 @@ json sweep_json(const SweepRow& row, int threads, Detail detail, std::string_vie
              {"ended_at", time_or_null(row.ended_ms)},
              {"axes", stored_json(row.swept)},
              {"study_id", value_or_null(row.study_id)},
-             {"links", {{"self", self}, {"results", self + "/results"}, {"events", self + "/events"},
-                        {"cancel", self + "/cancel"},
-                        {"retry", self + "/retry"}, {"extend", self + "/extend"}, {"move", self + "/move"},
-                        {"study", study_path(row.study_id)}}}};
+             {"links", sweep_links(row)}};
   sweep.update(time_left_json(row, threads, default_executor));
   if (detail == Detail::kFull) sweep["request"] = stored_json(row.request);
   return sweep;
@@ -220,16 +246,11 @@ json unstored_job_json(const json& parameters, const RunRecord& record, std::int
     state = JobState::kFailed;
     error = error_json(record.error_reason, record.error_detail, record.error_t_s);
   }
-  const Provenance& own = own_provenance();
-  const RunRow run{.wall_time_s = record.wall_time_s, .cpu_time_s = record.cpu_time_s, .host = own.host,
-                   .cpu = own.cpu, .version = own.version,
-                   .commit = own.commit, .compiler = own.compiler, .engine = own.engine, .libm = own.libm,
-                   .numerics = own.numerics};
   return {{"state", state_name(state)}, {"parameters", parameters}, {"metrics", record.metrics},
           {"error", error},
           {"created_at", time_text(started_ms)}, {"started_at", time_text(started_ms)},
           {"ended_at", time_text(ended_ms)},
-          {"run", run_json(run, 1, false)}};
+          {"run", run_json(own_run(record), 1, false)}};
 }
 
 json progress_json(const SweepRow& row, int threads, std::string_view default_executor) {

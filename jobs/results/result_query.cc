@@ -233,16 +233,22 @@ void take_columns(const std::vector<std::size_t>& wanted, ResultTable& table) {
   for (auto& row : table.rows) take(row);
 }
 
-}  // namespace
-
-std::vector<std::string> find_other_columns(const ResultQuery& query, const std::vector<std::string>& swept) {
-  const auto& paths = known_paths();
+/// The columns that a query names.
+std::vector<std::string> names_in(const ResultQuery& query, std::span<const std::string> paths) {
   std::vector<std::string> names;
   for (const ResultFilter& filter : query.filters) names.push_back(split_key(filter.key, paths).first);
   for (const std::string& list : {query.fields, query.order_by}) {
     for (const std::string& name : split_names(list, paths))
       names.push_back(name.starts_with('-') ? name.substr(1) : name);
   }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> find_other_columns(const ResultQuery& query, const std::vector<std::string>& swept) {
+  const auto& paths = known_paths();
+  const std::vector<std::string> names = names_in(query, paths);
   std::vector<std::string> others;
   for (const std::string& path : paths) {
     if (std::ranges::find(names, path) != names.end() && std::ranges::find(swept, path) == swept.end())

@@ -57,6 +57,20 @@ std::vector<std::string> driven_coordinates(const nlohmann::json& sweep) {
   return driven;
 }
 
+/// The metrics that vary, but those of coordinates that move by a law, and times.
+std::vector<std::string> free_metrics(const nlohmann::json& sweep, const ResultTable& table) {
+  const std::vector<std::string> driven = driven_coordinates(sweep);
+  std::vector<std::string> free;
+  for (const std::string_view metric : metrics_of(table)) {
+    const auto is_of = [&](const std::string& coordinate) {
+      return metric.find("_" + coordinate + "_acceleration") != std::string_view::npos;
+    };
+    if (is_time(metric) || std::ranges::any_of(driven, is_of)) continue;
+    if (varies(table, find_column(table, std::string(metric), ""))) free.emplace_back(metric);
+  }
+  return free;
+}
+
 }  // namespace
 
 std::size_t find_column(const ResultTable& table, const std::string& name, const std::string& pointer) {
@@ -96,15 +110,7 @@ std::string choose_free_metric(const nlohmann::json& sweep, const ResultTable& t
                                const std::string& wanted) {
   std::string usual = choose_metric(table, wanted);
   if (!wanted.empty() || usual == kReplicateMetric) return usual;
-  const std::vector<std::string> driven = driven_coordinates(sweep);
-  std::vector<std::string> free;
-  for (const std::string_view metric : metrics_of(table)) {
-    const auto is_of = [&](const std::string& coordinate) {
-      return metric.find("_" + coordinate + "_acceleration") != std::string_view::npos;
-    };
-    if (is_time(metric) || std::ranges::any_of(driven, is_of)) continue;
-    if (varies(table, find_column(table, std::string(metric), ""))) free.emplace_back(metric);
-  }
+  const std::vector<std::string> free = free_metrics(sweep, table);
   const auto acceleration = std::ranges::find_if(
       free, [](const std::string& metric) { return metric.find("_acceleration_") != std::string::npos; });
   if (acceleration != free.end()) return *acceleration;

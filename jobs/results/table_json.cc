@@ -56,6 +56,22 @@ std::vector<std::string> quoted_keys(const std::vector<std::string>& columns) {
   return keys;
 }
 
+/// @param keys  see quoted_keys()
+void append_row_object(std::string& text, const std::vector<std::string>& keys, const ResultTable& table,
+                       std::size_t row) {
+  text += '{';
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    if (c > 0) text += ',';
+    text += keys[c];
+    append_json_cell(text, table.rows[row].at(c));
+  }
+  if (!table.replicates.empty()) {
+    if (!keys.empty()) text += ',';
+    append_replicates_to(text, table.replicates.at(row));
+  }
+  text += '}';
+}
+
 /// An object for each row. @param before_first, before  what stands before it
 std::string joined_rows(const ResultTable& table, const char* before_first, const char* before) {
   const auto keys = quoted_keys(table.columns);
@@ -63,17 +79,7 @@ std::string joined_rows(const ResultTable& table, const char* before_first, cons
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     if (r == 1) text.reserve(table.rows.size() * (text.size() + text.size() / 8));
     text += r == 0 ? before_first : before;
-    text += '{';
-    for (std::size_t c = 0; c < keys.size(); ++c) {
-      if (c > 0) text += ',';
-      text += keys[c];
-      append_json_cell(text, table.rows[r].at(c));
-    }
-    if (!table.replicates.empty()) {
-      if (!keys.empty()) text += ',';
-      append_replicates_to(text, table.replicates.at(r));
-    }
-    text += '}';
+    append_row_object(text, keys, table, r);
   }
   return text;
 }

@@ -56,12 +56,20 @@ class JsonText final : public TrajectoryText {
       ++channel_;
       return true;
     }
-    bool first = false;
-    if (!column_) {
-      (to += channel_ == 0 ? "\n" : ",\n") += text_of(channels[channel_].key) + ":[";
-      column_ = view_.read_column(channel_);
-      first = true;
-    }
+    const bool first = !column_;
+    if (first) begin_column(to);
+    append_values(first, to);
+    return true;
+  }
+
+ private:
+  void begin_column(std::string& to) {
+    (to += channel_ == 0 ? "\n" : ",\n") += text_of(view_.channels()[channel_].key) + ":[";
+    column_ = view_.read_column(channel_);
+  }
+
+  /// Appends the next values of the column, and its end behind the last.
+  void append_values(bool first, std::string& to) {
     values_.clear();
     column_->append_next(kValuesAtATime, values_);
     for (const double value : values_) {
@@ -73,10 +81,8 @@ class JsonText final : public TrajectoryText {
       column_.reset();
       ++channel_;
     }
-    return true;
   }
 
- private:
   TrajectoryView view_;
   std::size_t channel_ = 0;
   std::unique_ptr<ColumnCursor> column_;  ///< of the channel; null: it has not begun

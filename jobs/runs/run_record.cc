@@ -40,12 +40,16 @@ json metrics_json(const std::vector<double>& values, std::span<const engine::Qua
   return metrics;
 }
 
-void take_result(engine::RunResult result, const JobSpec& spec, RunRecord& record) {
-  record.trajectory = std::move(result.trajectory);
+void take_trajectory(engine::Trajectory trajectory, RunRecord& record) {
+  record.trajectory = std::move(trajectory);
   check_is_table(record.trajectory);
   // Single precision resolves a column to 6e-8 of itself; the metrics keep all their digits.
   for (engine::QuantityInfo& channel : record.trajectory.channels)
     channel.single_precision = channel.key != "t_s";
+}
+
+void take_result(engine::RunResult result, const JobSpec& spec, RunRecord& record) {
+  take_trajectory(std::move(result.trajectory), record);
   if (result.status == engine::RunStatus::kSucceeded) {
     record.metrics = spec.linkage
                          ? metrics_json(result.metrics, engine::linkage_tables(*spec.linkage).metrics)

@@ -129,6 +129,53 @@ bool is_evaluated(const SearchInterval& interval, double x, const std::vector<Ev
                              [&](const Evaluation& at) { return std::abs(at.x - x) <= 1e-9 * width; });
 }
 
+/// Keeps the evaluations in the interval, in their order along it.
+void sort_inside(const SearchInterval& interval, std::vector<Evaluation>& evaluations) {
+  std::erase_if(evaluations, [&](const Evaluation& at) {
+    return comes_before(interval, at.x, interval.from) || comes_before(interval, interval.to, at.x);
+  });
+  std::ranges::sort(evaluations, [&](const Evaluation& a, const Evaluation& b) {
+    return comes_before(interval, a.x, b.x);
+  });
+}
+
+/// Verdicts on the evaluations that have ended.
+std::vector<Judged> judge_ended(const std::vector<Evaluation>& evaluations, const LimitRule& rule) {
+  std::vector<Judged> judged;
+  for (const Evaluation& at : evaluations) {
+    if (at.pending == 0 && at.lost == 0 && !at.values.empty()) judged.push_back(judge(at, rule));
+  }
+  return judged;
+}
+
+std::vector<double> list_unevaluated(const SearchInterval& interval,
+                                     const std::vector<Evaluation>& evaluations) {
+  std::vector<double> unevaluated;
+  for (const double x : first_values(interval)) {
+    if (!is_evaluated(interval, x, evaluations)) unevaluated.push_back(x);
+  }
+  return unevaluated;
+}
+
+void set_lost(const Evaluation& lost, Limit& limit) {
+  limit.verdict = Verdict::kLost;
+  limit.lost_reason = lost.lost_reason;
+}
+
+/// Sets the bracket of the limit, and its middle to be evaluated next if it is still wide.
+void set_bracket(const SearchInterval& interval, const std::vector<Judged>& judged, Limit& limit) {
+  const auto beyond = std::ranges::find(judged, false, &Judged::within);
+  if (beyond != judged.end()) limit.beyond = beyond->x;
+  if (beyond != judged.begin()) limit.within = std::prev(beyond)->x;
+  if (!limit.beyond || !limit.within) {
+    limit.verdict = limit.within ? Verdict::kNeverExceeded : Verdict::kAlwaysExceeded;
+  } else if (is_narrow(interval, *limit.within, *limit.beyond)) {
+    limit.verdict = Verdict::kFound;
+  } else {
+    limit.next = {value_between(interval, *limit.within, *limit.beyond, 0.5L, 1.0)};
+  }
+}
+
 }  // namespace
 
 std::string_view verdict_name(Verdict verdict) {
@@ -171,39 +218,16 @@ std::size_t most_evaluations(const SearchInterval& interval) {
 }
 
 Limit find_limit(const SearchInterval& interval, const LimitRule& rule, std::vector<Evaluation> evaluations) {
-  std::erase_if(evaluations, [&](const Evaluation& at) {
-    return comes_before(interval, at.x, interval.from) || comes_before(interval, interval.to, at.x);
-  });
-  std::ranges::sort(evaluations, [&](const Evaluation& a, const Evaluation& b) {
-    return comes_before(interval, a.x, b.x);
-  });
+  sort_inside(interval, evaluations);
   Limit limit;
-  std::vector<Judged> judged;
-  for (const Evaluation& at : evaluations) {
-    if (at.pending == 0 && at.lost == 0 && !at.values.empty()) judged.push_back(judge(at, rule));
-  }
+  const std::vector<Judged> judged = judge_ended(evaluations, rule);
   set_bands(judged, rule, limit);
   collect_falls(judged, limit);
   if (std::ranges::any_of(evaluations, [](const Evaluation& at) { return at.pending > 0; })) return limit;
-  for (const double x : first_values(interval)) {
-    if (!is_evaluated(interval, x, evaluations)) limit.next.push_back(x);
-  }
+  limit.next = list_unevaluated(interval, evaluations);
   if (!limit.next.empty()) return limit;
-  if (const Evaluation* const lost = find_lost(evaluations, rule)) {
-    limit.verdict = Verdict::kLost;
-    limit.lost_reason = lost->lost_reason;
-    return limit;
-  }
-  const auto beyond = std::ranges::find(judged, false, &Judged::within);
-  if (beyond != judged.end()) limit.beyond = beyond->x;
-  if (beyond != judged.begin()) limit.within = std::prev(beyond)->x;
-  if (!limit.beyond || !limit.within) {
-    limit.verdict = limit.within ? Verdict::kNeverExceeded : Verdict::kAlwaysExceeded;
-  } else if (is_narrow(interval, *limit.within, *limit.beyond)) {
-    limit.verdict = Verdict::kFound;
-  } else {
-    limit.next = {value_between(interval, *limit.within, *limit.beyond, 0.5L, 1.0)};
-  }
+  if (const Evaluation* const lost = find_lost(evaluations, rule)) set_lost(*lost, limit);
+  else set_bracket(interval, judged, limit);
   return limit;
 }
 

@@ -75,13 +75,17 @@ class SearchParser : private RequestParser {
     for (const char* const end : {"from", "to"}) check_end(given.at(end), pointer + "/" + end);
     if (span->from == span->to) fault(pointer + "/to", "must differ from from");
     if (faults_.size() > before) return;
-    search_.interval = {.from = span->from,
-                        .to = span->to,
-                        .logarithmic = span->logarithmic,
-                        .integer = is_integer(search_.parameter),
-                        .tolerance = given.value("tolerance", 0.01 * std::abs(span->to - span->from)),
-                        .first = given.value("first", kDefaultFirst)};
+    search_.interval = interval_of(*span, given);
     interval_is_valid_ = true;
+  }
+
+  [[nodiscard]] SearchInterval interval_of(const Span& span, const json& given) const {
+    return {.from = span.from,
+            .to = span.to,
+            .logarithmic = span.logarithmic,
+            .integer = is_integer(search_.parameter),
+            .tolerance = given.value("tolerance", 0.01 * std::abs(span.to - span.from)),
+            .first = given.value("first", kDefaultFirst)};
   }
 
   template <typename Describe>

@@ -66,12 +66,16 @@ struct WholeBlocks {
   std::size_t blocks = 0, missing = 0;
 };
 
+bool is_whole_block(const Response& response, std::size_t first, std::size_t width) {
+  const auto begin = response.means.begin() + static_cast<std::ptrdiff_t>(first);
+  return std::all_of(begin, begin + static_cast<std::ptrdiff_t>(width),
+                     [](const auto& value) { return value.has_value(); });
+}
+
 WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, std::size_t width) {
   WholeBlocks whole;
   for (std::size_t first = 0; first < points.size(); first += width) {
-    const auto begin = response.means.begin() + static_cast<std::ptrdiff_t>(first);
-    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(width),
-                    [](const auto& value) { return !value.has_value(); })) {
+    if (!is_whole_block(response, first, width)) {
       ++whole.missing;
       continue;
     }
@@ -97,25 +101,31 @@ void append(const Estimate& estimate, std::vector<json>& cells) {
   for (const double value : {estimate.value, estimate.low, estimate.high}) cells.emplace_back(value);
 }
 
-/// The cells of each parameter; nulls if there are too few blocks.
-std::vector<std::vector<json>> measures_of(bool morris, const WholeBlocks& whole, std::size_t dimensions) {
-  std::vector<std::vector<json>> cells(dimensions);
-  if (whole.blocks < 2) return std::vector<std::vector<json>>(dimensions, std::vector<json>(morris ? 5 : 6));
-  if (morris) {
-    const auto effects = calc_elementary_effects(whole.points, whole.values);
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      cells[i].emplace_back(effects[i].mean);
-      append(effects[i].mean_size, cells[i]);
-      cells[i].emplace_back(effects[i].deviation);
-    }
-  } else {
-    const auto indices = calc_sobol_indices(whole.values, dimensions);
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      append(indices[i].first_order, cells[i]);
-      append(indices[i].total, cells[i]);
-    }
+std::vector<std::vector<json>> effect_cells(const WholeBlocks& whole) {
+  std::vector<std::vector<json>> cells;
+  for (const ElementaryEffects& effects : calc_elementary_effects(whole.points, whole.values)) {
+    cells.emplace_back();
+    cells.back().emplace_back(effects.mean);
+    append(effects.mean_size, cells.back());
+    cells.back().emplace_back(effects.deviation);
   }
   return cells;
+}
+
+std::vector<std::vector<json>> index_cells(const WholeBlocks& whole, std::size_t dimensions) {
+  std::vector<std::vector<json>> cells;
+  for (const SobolIndices& indices : calc_sobol_indices(whole.values, dimensions)) {
+    cells.emplace_back();
+    append(indices.first_order, cells.back());
+    append(indices.total, cells.back());
+  }
+  return cells;
+}
+
+/// The cells of each parameter; nulls if there are too few blocks.
+std::vector<std::vector<json>> measures_of(bool morris, const WholeBlocks& whole, std::size_t dimensions) {
+  if (whole.blocks < 2) return std::vector<std::vector<json>>(dimensions, std::vector<json>(morris ? 5 : 6));
+  return morris ? effect_cells(whole) : index_cells(whole, dimensions);
 }
 
 void add_measure_columns(bool morris, std::vector<std::string>& columns) {
