@@ -193,19 +193,25 @@ Peaks gather_peaks(const ResultTable& results, const RowGroup& group, const std:
   return peaks;
 }
 
-Settings gather_settings(const ResultTable& results) {
-  const std::vector<std::size_t> axes = find_axes(results);
-  const std::size_t metric = find_column(results, std::string(kReplicateMetric), "");
-  Settings settings;
+/// The columns of what a sweep varies beside the axes.
+std::vector<std::size_t> find_parameter_columns(const ResultTable& results,
+                                                const std::vector<std::size_t>& axes) {
   std::vector<std::size_t> columns;
   for (std::size_t k = 0; k < results.columns.size(); ++k) {
     const std::string& column = results.columns[k];
     const bool given = is_varied_by_cases(column) || is_path_in_description(column) ||
                        std::ranges::find(known_paths(), column) != known_paths().end();
-    if (!given || std::ranges::find(axes, k) != axes.end()) continue;
-    columns.push_back(k);
-    settings.parameters.push_back(results.columns[k]);
+    if (given && std::ranges::find(axes, k) == axes.end()) columns.push_back(k);
   }
+  return columns;
+}
+
+Settings gather_settings(const ResultTable& results) {
+  const std::vector<std::size_t> axes = find_axes(results);
+  const std::size_t metric = find_column(results, std::string(kReplicateMetric), "");
+  Settings settings;
+  const std::vector<std::size_t> columns = find_parameter_columns(results, axes);
+  for (const std::size_t k : columns) settings.parameters.push_back(results.columns[k]);
   for (const RowGroup& group : group_rows(results, columns)) {
     settings.values.push_back(group.values);
     settings.peaks.push_back(gather_peaks(results, group, axes, metric));
@@ -254,6 +260,30 @@ json index_of(const Statement& statement, const StatementOutcome& outcome, const
   return value_or_null(calc_first_order_index(inputs, outcome.logs));
 }
 
+bool has_indices(const Settings& settings) { return settings.peaks.size() >= kFewestSettings; }
+
+/// The cells of a statement without its indices.
+std::vector<json> outcome_cells(const Statement& statement, const StatementOutcome& outcome) {
+  const std::size_t count = outcome.settings.size();
+  return {statement.name,
+          statement.number,
+          statement.text,
+          statement.paper,
+          count > 0 ? json(calc_median(outcome.least)) : json(),
+          count > 0 ? json(calc_median(outcome.largest)) : json(),
+          count,
+          count > 0 ? json(static_cast<double>(outcome.holding) / static_cast<double>(count)) : json(),
+          count > 0 ? json(outcome.holding == count) : json()};
+}
+
+std::vector<json> statement_cells(const Statement& statement, const Settings& settings) {
+  const StatementOutcome outcome = check_statement(statement, settings);
+  std::vector<json> cells = outcome_cells(statement, outcome);
+  for (std::size_t k = 0; has_indices(settings) && k < settings.parameters.size(); ++k)
+    cells.push_back(index_of(statement, outcome, settings, k));
+  return cells;
+}
+
 }  // namespace
 
 ResultTable hold_against_paper(const ResultTable& results) {
@@ -262,26 +292,10 @@ ResultTable hold_against_paper(const ResultTable& results) {
                                 "settings", "share", "holds"},
                     .rows = {},
                     .ended = results.ended};
-  const bool has_indices = settings.peaks.size() >= kFewestSettings;
-  if (has_indices)
+  if (has_indices(settings))
     for (const std::string& parameter : settings.parameters) table.columns.push_back("index." + parameter);
-  for (const Statement& statement : make_statements(velocities_of(settings))) {
-    const StatementOutcome outcome = check_statement(statement, settings);
-    const std::size_t count = outcome.settings.size();
-    std::vector<json> row{
-        statement.name,
-        statement.number,
-        statement.text,
-        statement.paper,
-        count > 0 ? json(calc_median(outcome.least)) : json(),
-        count > 0 ? json(calc_median(outcome.largest)) : json(),
-        count,
-        count > 0 ? json(static_cast<double>(outcome.holding) / static_cast<double>(count)) : json(),
-        count > 0 ? json(outcome.holding == count) : json()};
-    for (std::size_t k = 0; has_indices && k < settings.parameters.size(); ++k)
-      row.push_back(index_of(statement, outcome, settings, k));
-    table.rows.push_back(std::move(row));
-  }
+  for (const Statement& statement : make_statements(velocities_of(settings)))
+    table.rows.push_back(statement_cells(statement, settings));
   return table;
 }
 

@@ -47,6 +47,18 @@ struct BlockTerms {
   std::vector<std::vector<double>> first, total;  ///< b (ab - a) and (a - ab)^2 / 2, by input
 };
 
+/// @param block  the values at a, at b, and at a with one input after the other of b
+void add_block(std::span<const double> block, double mean, BlockTerms& terms) {
+  const double a = block[0] - mean;
+  const double b = block[1] - mean;
+  terms.square.push_back(0.5 * (a * a + b * b));
+  for (std::size_t i = 0; i < terms.first.size(); ++i) {
+    const double ab = block[2 + i] - mean;
+    terms.first[i].push_back(b * (ab - a));
+    terms.total[i].push_back(0.5 * (a - ab) * (a - ab));
+  }
+}
+
 BlockTerms terms_of(std::span<const double> values, std::size_t dimensions) {
   const std::size_t width = dimensions + 2;
   const std::size_t blocks = values.size() / width;
@@ -55,16 +67,7 @@ BlockTerms terms_of(std::span<const double> values, std::size_t dimensions) {
     mean += 0.5 * (values[k * width] + values[k * width + 1]) / static_cast<double>(blocks);
   BlockTerms terms{.square = {}, .first = std::vector<std::vector<double>>(dimensions),
                    .total = std::vector<std::vector<double>>(dimensions)};
-  for (std::size_t k = 0; k < blocks; ++k) {
-    const double a = values[k * width] - mean;
-    const double b = values[k * width + 1] - mean;
-    terms.square.push_back(0.5 * (a * a + b * b));
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      const double ab = values[k * width + 2 + i] - mean;
-      terms.first[i].push_back(b * (ab - a));
-      terms.total[i].push_back(0.5 * (a - ab) * (a - ab));
-    }
-  }
+  for (std::size_t k = 0; k < blocks; ++k) add_block(values.subspan(k * width, width), mean, terms);
   return terms;
 }
 
@@ -84,15 +87,7 @@ class Bootstrap {
 
   [[nodiscard]] Estimate estimate(const std::vector<double>& term) const {
     std::vector<double> ratios;
-    for (const auto& sample : samples_) {
-      double part = 0.0;
-      double whole = 0.0;
-      for (const std::uint32_t k : sample) {
-        part += term[k];
-        whole += square_[k];
-      }
-      ratios.push_back(ratio(part, whole));
-    }
+    for (const auto& sample : samples_) ratios.push_back(ratio_in(sample, term));
     std::ranges::sort(ratios);
     const auto at = [&](double part) {
       return ratios[static_cast<std::size_t>(part * static_cast<double>(ratios.size() - 1))];
@@ -102,32 +97,62 @@ class Bootstrap {
   }
 
  private:
+  [[nodiscard]] double ratio_in(const std::vector<std::uint32_t>& sample,
+                                const std::vector<double>& term) const {
+    double part = 0.0;
+    double whole = 0.0;
+    for (const std::uint32_t k : sample) {
+      part += term[k];
+      whole += square_[k];
+    }
+    return ratio(part, whole);
+  }
+
   const std::vector<double>& square_;
   std::vector<std::vector<std::uint32_t>> samples_;
 };
+
+/// A point of the grid in the unit cube. @param levels  number of them along each side
+std::vector<double> to_unit_point(const std::vector<std::size_t>& grid_point, std::size_t levels) {
+  const double spacing = 1.0 / static_cast<double>(levels - 1);
+  std::vector<double> point;
+  for (const std::size_t level : grid_point) point.push_back(static_cast<double>(level) * spacing);
+  return point;
+}
+
+/// Adds a point by chance and those after it, each with a jump of one input.
+void add_trajectory(std::size_t dimensions, std::size_t levels, Chance& chance, UnitPoints& points) {
+  const std::size_t jump = levels / 2;
+  std::vector<std::size_t> grid_point(dimensions);
+  for (std::size_t& level : grid_point) level = chance.below(levels);
+  points.push_back(to_unit_point(grid_point, levels));
+  for (const std::size_t d : random_order(dimensions, chance)) {
+    grid_point[d] = grid_point[d] < jump ? grid_point[d] + jump : grid_point[d] - jump;
+    points.push_back(to_unit_point(grid_point, levels));
+  }
+}
+
+/// The effects of each input.
+std::vector<std::vector<double>> effects_of(const UnitPoints& points, std::span<const double> values) {
+  const std::size_t dimensions = points.front().size();
+  std::vector<std::vector<double>> effects(dimensions);
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (k % (dimensions + 1) == 0) continue;  // the next trajectory begins
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      const double step = points[k][d] - points[k - 1][d];
+      if (step != 0.0) effects[d].push_back((values[k] - values[k - 1]) / step);
+    }
+  }
+  return effects;
+}
 
 }  // namespace
 
 UnitPoints morris_points(std::size_t trajectories, std::size_t dimensions, std::size_t levels,
                          std::uint64_t seed) {
   Chance chance(seed);
-  const double spacing = 1.0 / static_cast<double>(levels - 1);
-  const std::size_t jump = levels / 2;
   UnitPoints points;
-  for (std::size_t t = 0; t < trajectories; ++t) {
-    std::vector<std::size_t> grid_point(dimensions);
-    for (std::size_t& level : grid_point) level = chance.below(levels);
-    const auto add = [&] {
-      points.emplace_back();
-      for (const std::size_t level : grid_point)
-        points.back().push_back(static_cast<double>(level) * spacing);
-    };
-    add();
-    for (const std::size_t d : random_order(dimensions, chance)) {
-      grid_point[d] = grid_point[d] < jump ? grid_point[d] + jump : grid_point[d] - jump;
-      add();
-    }
-  }
+  for (std::size_t t = 0; t < trajectories; ++t) add_trajectory(dimensions, levels, chance, points);
   return points;
 }
 
@@ -147,17 +172,8 @@ UnitPoints saltelli_points(std::size_t blocks, std::size_t dimensions, std::uint
 
 std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points,
                                                        std::span<const double> values) {
-  const std::size_t dimensions = points.front().size();
-  std::vector<std::vector<double>> effects(dimensions);
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    if (k % (dimensions + 1) == 0) continue;  // the next trajectory begins
-    for (std::size_t d = 0; d < dimensions; ++d) {
-      const double step = points[k][d] - points[k - 1][d];
-      if (step != 0.0) effects[d].push_back((values[k] - values[k - 1]) / step);
-    }
-  }
   std::vector<ElementaryEffects> measures;
-  for (const auto& of_input : effects) {
+  for (const auto& of_input : effects_of(points, values)) {
     std::vector<double> sizes;
     for (const double effect : of_input) sizes.push_back(std::abs(effect));
     measures.push_back({.mean = mean_of(of_input), .mean_size = estimate_mean(sizes),

@@ -5,23 +5,29 @@
 #include <cmath>
 
 namespace jobs {
+namespace {
+
+double calc_mean(std::span<const double> values) {
+  double excess = 0.0;  // over the first value
+  for (const double x : values) excess += x - values.front();
+  return values.front() + excess / static_cast<double>(values.size());
+}
+
+}  // namespace
 
 ReplicateStatistics calc_replicate_statistics(std::span<const double> values) {
   ReplicateStatistics statistics;
   statistics.count = values.size();
   if (values.empty()) return statistics;
-  const auto n = static_cast<double>(values.size());
   const auto [min, max] = std::ranges::minmax(values);
-  double excess = 0.0;  // over the first value
-  for (const double x : values) excess += x - values.front();
-  const double mean = values.front() + excess / n;
+  const double mean = calc_mean(values);
   statistics.mean = mean;
   statistics.min = min;
   statistics.max = max;
   if (values.size() < 2) return statistics;
   double squares = 0.0;
   for (const double x : values) squares += (x - mean) * (x - mean);
-  statistics.spread = std::sqrt(squares / (n - 1.0));
+  statistics.spread = std::sqrt(squares / (static_cast<double>(values.size()) - 1.0));
   return statistics;
 }
 

@@ -25,6 +25,13 @@ void add_exponents(std::size_t inputs, int degree, std::vector<int>& begun,
   }
 }
 
+std::vector<std::vector<int>> make_exponents(std::size_t inputs, int degree) {
+  std::vector<std::vector<int>> exponents;
+  std::vector<int> begun;
+  add_exponents(inputs, degree, begun, exponents);
+  return exponents;
+}
+
 /// Number of terms: (inputs + degree) over degree.
 double count_terms(std::size_t inputs, int degree) {
   double count = 1.0;
@@ -57,25 +64,38 @@ Eigen::RowVectorXd terms_at(std::span<const double> input, const std::vector<std
   return terms;
 }
 
+/// A row of terms a point.
+Eigen::MatrixXd make_design_matrix(const Eigen::MatrixXd& inputs,
+                                   const std::vector<std::vector<int>>& exponents, int degree) {
+  Eigen::MatrixXd design(inputs.rows(), static_cast<Eigen::Index>(exponents.size()));
+  for (Eigen::Index k = 0; k < inputs.rows(); ++k) {
+    const Eigen::VectorXd point = inputs.row(k);
+    design.row(k) =
+        terms_at(std::span(point.data(), static_cast<std::size_t>(point.size())), exponents, degree);
+  }
+  return design;
+}
+
+/// A power of two, by which no digit changes, near the largest value. Squares of large values would be
+/// infinite, and no degree better than none.
+double scale_of(const Eigen::VectorXd& response) {
+  const double largest = response.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? std::exp2(std::ilogb(largest)) : 1.0;
+}
+
 }  // namespace
 
 struct PolynomialChaos::Fit {
-  std::vector<std::vector<int>> exponents;
-  Eigen::VectorXd coefficients, left_out;
+  int degree = 0;
+  std::vector<std::vector<int>> exponents{};
+  Eigen::VectorXd coefficients{}, left_out{};
   double error = std::numeric_limits<double>::infinity();
 };
 
 PolynomialChaos::Fit PolynomialChaos::fit(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& response,
                                           int degree) {
-  Fit made;
-  std::vector<int> begun;
-  add_exponents(static_cast<std::size_t>(inputs.cols()), degree, begun, made.exponents);
-  Eigen::MatrixXd design(inputs.rows(), static_cast<Eigen::Index>(made.exponents.size()));
-  for (Eigen::Index k = 0; k < inputs.rows(); ++k) {
-    const Eigen::VectorXd point = inputs.row(k);
-    design.row(k) =
-        terms_at(std::span(point.data(), static_cast<std::size_t>(point.size())), made.exponents, degree);
-  }
+  Fit made{.degree = degree, .exponents = make_exponents(static_cast<std::size_t>(inputs.cols()), degree)};
+  const Eigen::MatrixXd design = make_design_matrix(inputs, made.exponents, degree);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
   if (qr.rank() < design.cols()) return made;  // on a grid of few values high degrees are not told apart
   made.coefficients = qr.solve(response);
@@ -88,21 +108,23 @@ PolynomialChaos::Fit PolynomialChaos::fit(const Eigen::MatrixXd& inputs, const E
   return made;
 }
 
-PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& given) {
-  // Squares of large values would be infinite, and no degree better than none. By a power of two, so that no
-  // digit changes.
-  const double largest = given.cwiseAbs().maxCoeff();
-  const double scale = largest > 0.0 ? std::exp2(std::ilogb(largest)) : 1.0;
-  const Eigen::VectorXd response = given / scale;
+PolynomialChaos::Fit PolynomialChaos::find_best_fit(const Eigen::MatrixXd& inputs,
+                                                    const Eigen::VectorXd& response) {
   Fit best;
   for (int degree = 0; degree <= kLargestDegree; ++degree) {
     const double terms = count_terms(static_cast<std::size_t>(inputs.cols()), degree);
     if (terms > kMostTerms || kPointsPerTerm * terms > static_cast<double>(inputs.rows())) break;
     Fit next = fit(inputs, response, degree);
-    if (!(next.error < best.error)) continue;
-    best = std::move(next);
-    degree_ = degree;
+    if (next.error < best.error) best = std::move(next);
   }
+  return best;
+}
+
+PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& given) {
+  const double scale = scale_of(given);
+  const Eigen::VectorXd response = given / scale;
+  Fit best = find_best_fit(inputs, response);
+  degree_ = best.degree;
   exponents_ = std::move(best.exponents);
   coefficients_ = scale * best.coefficients;
   left_out_ = scale * best.left_out;

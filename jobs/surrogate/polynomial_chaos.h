@@ -36,6 +36,8 @@ class PolynomialChaos {
  private:
   struct Fit;
   [[nodiscard]] static Fit fit(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& response, int degree);
+  /// The fit of the degree with the least error.
+  [[nodiscard]] static Fit find_best_fit(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& response);
 
   int degree_ = 0;
   std::vector<std::vector<int>> exponents_;  ///< degrees of each term, one an input

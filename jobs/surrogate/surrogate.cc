@@ -41,15 +41,20 @@ struct Input {
   }
 };
 
-/// A range that the request gives is the input's; otherwise its values span it. Jobs of another linkage may
-/// have none.
-Input input_of(const json& request, const ResultTable& results, const std::string& parameter) {
-  Input input{.parameter = parameter, .column = find_column(results, parameter, "")};
+/// The range or the list that the request gives of a parameter; null: neither.
+json given_values_of(const json& request, const std::string& parameter) {
   const json over = request.value("design", json::object()).value("over", json::object());
   const json& given_in = over.contains(parameter) ? over
                       : request.contains("sweep") ? request.at("sweep")
                                                   : over;
-  const json given = given_in.value(parameter, json());
+  return given_in.value(parameter, json());
+}
+
+/// A range that the request gives is the input's; otherwise its values span it. Jobs of another linkage may
+/// have none.
+Input input_of(const json& request, const ResultTable& results, const std::string& parameter) {
+  Input input{.parameter = parameter, .column = find_column(results, parameter, "")};
+  const json given = given_values_of(request, parameter);
   input.logarithmic = given.is_object() && given.value("scale", "linear") == "log";
   std::vector<double> values;
   for (const auto& row : results.rows) {
@@ -144,8 +149,9 @@ std::size_t find_input(const std::vector<Input>& inputs, const std::string& name
       std::vector<Fault>{{pointer, "\"" + name + "\": " + describe_unknown_key(name, known)}});
 }
 
-json surface_json(const std::vector<Point>& points, const std::vector<Input>& inputs, std::size_t x,
-                  std::optional<std::size_t> y) {
+/// What is known of a combination without a surrogate.
+json unfitted_json(const std::vector<Point>& points, const std::vector<Input>& inputs, std::size_t x,
+                   std::optional<std::size_t> y) {
   json made{{"points", points.size()}, {"degree", nullptr}, {"terms", nullptr},
             {"cross_validation_error", nullptr}, {"predicted_part", nullptr},
             {"x_values", grid_of(inputs[x])}, {"y_values", y ? json(grid_of(inputs[*y])) : json::array()},
@@ -156,6 +162,12 @@ json surface_json(const std::vector<Point>& points, const std::vector<Input>& in
     for (std::size_t i = 0; i < inputs.size(); ++i) at[inputs[i].parameter] = point.coordinates[i];
     made["at"].push_back(std::move(at));
   }
+  return made;
+}
+
+json surface_json(const std::vector<Point>& points, const std::vector<Input>& inputs, std::size_t x,
+                  std::optional<std::size_t> y) {
+  json made = unfitted_json(points, inputs, x, y);
   if (points.size() < kFewestPoints) return made;
   const PolynomialChaos surrogate = fit(points, inputs);
   made.update({{"degree", surrogate.degree()}, {"terms", surrogate.terms()},
