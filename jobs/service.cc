@@ -43,33 +43,42 @@ json ended_job_json(const EndedJob& job) {
           {"ended_at", time_text(job.ended_ms)}, {"reused", job.reused}};
 }
 
+std::array<std::unique_ptr<StudyRunner>, kStudyKinds.size()> make_runners(Store& store,
+                                                                          const ServiceOptions& options) {
+  const StudyLimits limits{.max_sweep_jobs = options.max_sweep_jobs,
+                           .max_queued_jobs = options.max_queued_jobs,
+                           .threads = options.threads};
+  const auto find_measurement = [&store](const std::string& id) { return store.measurements.find(id); };
+  return {std::make_unique<StudyRunner>(store, limits, make_limit_study()),
+          std::make_unique<StudyRunner>(store, limits, make_wear_study(store.reader)),
+          std::make_unique<StudyRunner>(store, limits, make_optimisation_study()),
+          std::make_unique<StudyRunner>(store, limits, make_fit_study(store.reader, find_measurement))};
+}
+
+void tell_other_engine(const Store& store, const std::function<void(const std::string&)>& log) {
+  if (store.engine_before() == engine_version()) return;
+  log("the store's results are of the engine " + store.engine_before() + ", this program's is " +
+      engine_version() + ": jobs that are asked for again are computed again");
+}
+
+/// What a store without room is open for.
+std::string describe_use_without_room(LogIndex log_index) {
+  return log_index == LogIndex::kFile
+             ? "the store is open for reading, cancelling and deleting only: "
+             : "the store is open for reading only, and to no other process until the next start: ";
+}
+
 }  // namespace
 
 Service::Service(ServiceOptions options)
     : options_(with_defaults(std::move(options))),
       store_(std::make_unique<Store>(options_.store, options_.store_quota)) {
-  const StudyLimits limits{.max_sweep_jobs = options_.max_sweep_jobs,
-                           .max_queued_jobs = options_.max_queued_jobs,
-                           .threads = options_.threads};
-  runners_ = {std::make_unique<StudyRunner>(*store_, limits, make_limit_study()),
-              std::make_unique<StudyRunner>(*store_, limits, make_wear_study(store_->reader)),
-              std::make_unique<StudyRunner>(*store_, limits, make_optimisation_study()),
-              std::make_unique<StudyRunner>(
-                  *store_, limits, make_fit_study(store_->reader, [this](const std::string& id) {
-                    return store_->measurements.find(id);
-                  }))};
-  if (store_->engine_before() != engine_version()) {
-    options_.log("the store's results are of the engine " + store_->engine_before() + ", this program's is " +
-                 engine_version() + ": jobs that are asked for again are computed again");
-  }
+  runners_ = make_runners(*store_, options_);
+  tell_other_engine(*store_, options_.log);
   try {
     check_room();
   } catch (const StorageError& error) {
-    const std::string open_for =
-        store_->log_index() == LogIndex::kFile
-            ? "the store is open for reading, cancelling and deleting only: "
-            : "the store is open for reading only, and to no other process until the next start: ";
-    options_.log(open_for + error.what());
+    options_.log(describe_use_without_room(store_->log_index()) + error.what());
   }
   // OpenSSL that finds no memory when it is first used does not work any more
   static_cast<void>(sha256_hex(""));

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Studies of the service, and the thread that lets them go on.
 
+#include <memory>
+#include <span>
+
 #include "jobs/base/content_id.h"
 #include "jobs/service.h"
 #include "jobs/store/store.h"
 #include "jobs/studies/study_runner.h"
 
 namespace jobs {
+namespace {
 
 using nlohmann::json;
+
+StudyChanges advance_all(std::span<const std::unique_ptr<StudyRunner>> runners) {
+  StudyChanges changes;
+  for (const auto& runner : runners) {
+    const StudyChanges one = runner->advance();
+    changes.any |= one.any;
+    changes.added |= one.added;
+  }
+  return changes;
+}
+
+}  // namespace
 
 json Service::submit_study(StudyKind kind, const nlohmann::ordered_json& request, const std::string& key) {
   const std::string route = "POST " + std::string(kind_info(kind).path) + " ";
@@ -97,12 +113,7 @@ void Service::run_studies() {
   while (!changes_.is_closed()) {
     const std::uint64_t seen = changes_.count();
     try {
-      StudyChanges changes;
-      for (const auto& each : runners_) {
-        const StudyChanges one = each->advance();
-        changes.any |= one.any;
-        changes.added |= one.added;
-      }
+      const StudyChanges changes = advance_all(runners_);
       if (changes.added) wake();
       if (changes.any) tell_change();
       changes_.wait(seen);

@@ -98,19 +98,8 @@ void LocalPool::work(const std::stop_token& stop) {
   milliseconds next_pause = kFirstRetryPause;
   std::optional<Task> task;
   while (task || !stop.stop_requested()) {
-    std::uint64_t seen = 0;
-    {
-      const std::lock_guard lock(wake_mutex_);
-      seen = wakes_;
-    }
     try {
-      if (!task) task = claim_next();
-      if (task) {
-        task = compute(*task, stop);
-      } else {
-        std::unique_lock lock(wake_mutex_);
-        wake_.wait(lock, stop, [&] { return wakes_ != seen; });
-      }
+      advance(task, stop);
       next_pause = kFirstRetryPause;
     } catch (const std::exception& error) {  // the store's errors, or no memory
       tell("no job could be taken", "", error);
@@ -118,6 +107,22 @@ void LocalPool::work(const std::stop_token& stop) {
       next_pause = std::min(2 * next_pause, kLongestRetryPause);
     }
   }
+}
+
+void LocalPool::advance(std::optional<Task>& task, const std::stop_token& stop) {
+  const std::uint64_t seen = count_wakes();
+  if (!task) task = claim_next();
+  if (task) {
+    task = compute(*task, stop);
+    return;
+  }
+  std::unique_lock lock(wake_mutex_);
+  wake_.wait(lock, stop, [&] { return wakes_ != seen; });
+}
+
+std::uint64_t LocalPool::count_wakes() {
+  const std::lock_guard lock(wake_mutex_);
+  return wakes_;
 }
 
 template <typename HandOver>

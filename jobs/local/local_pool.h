@@ -61,6 +61,10 @@ class LocalPool : public Executor {
   };
 
   void work(const std::stop_token& stop);
+  /// Computes the task, or else a job that it claims, and leaves the one after it in the task. Sleeps until
+  /// wake() if there is none.
+  void advance(std::optional<Task>& task, const std::stop_token& stop);
+  [[nodiscard]] std::uint64_t count_wakes();
   [[nodiscard]] std::optional<Task> claim_next();
   /// Does what is to be done for the job. @returns the next one, if that has been claimed on the way
   [[nodiscard]] std::optional<Task> compute(const Task& task, const std::stop_token& stop);

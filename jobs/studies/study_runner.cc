@@ -27,20 +27,21 @@ std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
 
 json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
   const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
-  const IdempotencyRecord<StudySnapshot> record{.key = idempotency.key,
-                                                .fingerprint = idempotency.fingerprint,
-                                                .make_response = [&](StudySnapshot begun) {
-                                                  // As the study begins: results that are known already have
-                                                  // not been told.
-                                                  for (ResultRow& job : begun.results.rows)
-                                                    job.state = state_name(JobState::kQueued);
-                                                  return *idempotency.response = text_of(type_->make_resource(
-                                                             begun.study, begun.results, limits_.threads));
-                                                }};
+  const IdempotencyRecord<StudySnapshot> record{
+      .key = idempotency.key,
+      .fingerprint = idempotency.fingerprint,
+      .make_response = [&](StudySnapshot begun) {
+        return *idempotency.response = make_response(std::move(begun));
+      }};
   const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
                                             request.dump(), limits_.max_queued_jobs, record);
   ++wakeups_;
   return find(id).value();
+}
+
+std::string StudyRunner::make_response(StudySnapshot begun) const {
+  for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
+  return text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
 }
 
 std::optional<json> StudyRunner::find(const std::string& id) const {
@@ -171,10 +172,7 @@ bool StudyRunner::tell_ended_jobs(ActiveStudy& study) {
 StudyChanges StudyRunner::add_next_cases(const StudyRow& study) {
   ActiveStudy& active = active_.at(study.id);
   const NextCases next = active.sampler->ask();
-  {
-    const std::lock_guard lock(progress_mutex_);
-    progress_[study.id] = active.sampler->progress();
-  }
+  set_progress(study.id, active.sampler->progress());
   if (next.end_state) {
     store_.studies.set_state(study.id, "running", *next.end_state, next.error);
     return {.any = true};
@@ -184,6 +182,11 @@ StudyChanges StudyRunner::add_next_cases(const StudyRow& study) {
   request["cases"] = next.cases;
   const bool added = store_.queue.add_cases(study.sweep_id, next.cases, plan_sweep(request, kNoLimit).jobs);
   return {.any = true, .added = added};
+}
+
+void StudyRunner::set_progress(const std::string& id, double progress) {
+  const std::lock_guard lock(progress_mutex_);
+  progress_[id] = progress;
 }
 
 double StudyRunner::find_progress(const std::string& id) const {

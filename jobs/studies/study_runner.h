@@ -145,6 +145,9 @@ class StudyRunner {
   /// Tells the sampler the jobs that have ended since it was told last. False if there are none.
   bool tell_ended_jobs(ActiveStudy& study);
   StudyChanges add_next_cases(const StudyRow& study);
+  void set_progress(const std::string& id, double progress);
+  /// Response to the request for a study, as it begins: results that are known already have not been told.
+  [[nodiscard]] std::string make_response(StudySnapshot begun) const;
 
   Store& store_;
   const StudyLimits limits_;
