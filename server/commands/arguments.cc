@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -66,27 +67,48 @@ std::string describe_value_fault(CLI::Option& option, const std::string& value) 
   }
 }
 
-}  // namespace
+/// Options with their values that stand before the command, by whose they are.
+struct LeadingOptions {
+  std::vector<std::string> of_program;
+  std::vector<std::string> of_command;
 
-std::vector<std::string> arrange_arguments(const CLI::App& app, std::vector<std::string> words) {
-  join_plot(words);
-  std::vector<std::string> first;   // options of the program
-  std::vector<std::string> behind;  // options of the command
+  [[nodiscard]] std::ptrdiff_t count() const {
+    return static_cast<std::ptrdiff_t>(of_program.size() + of_command.size());
+  }
+};
+
+LeadingOptions find_leading_options(const CLI::App& app, const std::vector<std::string>& words) {
+  LeadingOptions found;
   auto word = words.begin();
   while (word != words.end() && is_option(*word)) {
     const std::string name = word->substr(0, word->find('='));
-    auto& to = app.get_option_no_throw(name) != nullptr ? first : behind;
+    auto& to = app.get_option_no_throw(name) != nullptr ? found.of_program : found.of_command;
     const bool has_value = takes_next_word(app, *word) && std::next(word) != words.end();
     to.push_back(*word++);
     if (has_value) to.push_back(*word++);
   }
-  if (word == words.end()) return words;  // the parser tells that a command is missing
-  check_command(app, *word);
-  const auto end = std::find(word, words.end(), "--");
-  first.insert(first.end(), word, end);
-  first.insert(first.end(), behind.begin(), behind.end());
-  first.insert(first.end(), end, words.end());
-  return first;
+  return found;
+}
+
+void add_option_names(const CLI::App& command, std::vector<std::string>& names) {
+  for (const CLI::Option* const option : command.get_options())
+    if (is_option(option->get_name())) names.push_back(option->get_name());
+}
+
+}  // namespace
+
+std::vector<std::string> arrange_arguments(const CLI::App& app, std::vector<std::string> words) {
+  join_plot(words);
+  LeadingOptions leading = find_leading_options(app, words);
+  const auto command = words.begin() + leading.count();
+  if (command == words.end()) return words;  // the parser tells that a command is missing
+  check_command(app, *command);
+  const auto end = std::find(command, words.end(), "--");
+  std::vector<std::string> arranged = std::move(leading.of_program);
+  arranged.insert(arranged.end(), command, end);
+  arranged.insert(arranged.end(), leading.of_command.begin(), leading.of_command.end());
+  arranged.insert(arranged.end(), end, words.end());
+  return arranged;
 }
 
 std::string describe_unknown_option(const CLI::App& app, const std::string& word) {
@@ -94,13 +116,9 @@ std::string describe_unknown_option(const CLI::App& app, const std::string& word
   std::vector<std::string> known;
   std::string place = app.get_name();
   std::string help = place;
-  const auto add_options = [&](const CLI::App& command) {
-    for (const CLI::Option* const option : command.get_options())
-      if (is_option(option->get_name())) known.push_back(option->get_name());
-  };
-  add_options(app);
+  add_option_names(app, known);
   for (const CLI::App* const command : app.get_subcommands()) {
-    add_options(*command);
+    add_option_names(*command, known);
     place = command->get_name();
     help += " " + place;
   }

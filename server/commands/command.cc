@@ -26,9 +26,19 @@ namespace server::commands {
 
 namespace {
 
+constexpr const char* kNoMemory =
+    "there is no memory left; ulimit -v and the unit's MemoryMax limit what a process may take";
+
 int report(ExitCode code, const std::string& text) {
   std::cerr << "rpsup: " << terminal_text(text) << '\n';
   return code;
+}
+
+int report(const std::system_error& error) {
+  const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+  return report(
+      kMachineFailed,
+      no_thread ? "the system allows no more threads; ulimit -v and ulimit -u limit them" : error.what());
 }
 
 int report(const jobs::InvalidRequest& error) {
@@ -63,6 +73,21 @@ bool write_all(int file, std::string_view text) {
   return ::fsync(file) == 0;
 }
 
+/// Fills a new file and closes it. False with errno set if not everything got there.
+/// @param old  status of the file whose mode and owner it gets; null: there is none
+bool fill_and_close(int file, const std::string& text, const struct stat* old) {
+  bool written = write_all(file, text);
+  if (old != nullptr) {
+    // Only an administrator may give a file away; for others the file stays theirs.
+    static_cast<void>(!::fchown(file, old->st_uid, old->st_gid));
+    written = written && ::fchmod(file, old->st_mode & 07777) == 0;
+  }
+  const int error = errno;
+  const bool closed = ::close(file) == 0;
+  if (!written) errno = error;
+  return written && closed;
+}
+
 /// Writes a file beside the one of that name and renames it: whoever reads the name sees the old file or the
 /// whole new one, and a disk that is full leaves the old one as it is.
 /// @param old  status of the file that is replaced, whose mode and owner stay; null: there is none
@@ -72,15 +97,7 @@ void write_beside(const std::string& path, const std::string& text, const struct
   const mode_t mode = old == nullptr ? 0666 : 0600;
   const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (file < 0) cannot_write(path);
-  bool written = write_all(file, text);
-  if (old != nullptr) {
-    // Only an administrator may give a file away; for others the file stays theirs.
-    static_cast<void>(!::fchown(file, old->st_uid, old->st_gid));
-    written = written && ::fchmod(file, old->st_mode & 07777) == 0;
-  }
-  const int error = errno;
-  if (::close(file) == 0 && written && ::rename(beside.c_str(), path.c_str()) == 0) return;
-  if (!written) errno = error;
+  if (fill_and_close(file, text, old) && ::rename(beside.c_str(), path.c_str()) == 0) return;
   const int reason = errno;
   ::unlink(beside.c_str());
   errno = reason;
@@ -98,14 +115,9 @@ int run_guarded(const std::function<int()>& command) {
   } catch (const BadInput& error) {
     return report(kBadInput, error.what());
   } catch (const std::bad_alloc&) {
-    return report(
-        kMachineFailed,
-        "there is no memory left; ulimit -v and the unit's MemoryMax limit what a process may take");
+    return report(kMachineFailed, kNoMemory);
   } catch (const std::system_error& error) {
-    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
-    return report(
-        kMachineFailed,
-        no_thread ? "the system allows no more threads; ulimit -v and ulimit -u limit them" : error.what());
+    return report(error);
   } catch (const std::exception& error) {
     return report(kMachineFailed, error.what());
   }

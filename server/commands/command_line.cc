@@ -44,20 +44,24 @@ namespace server::commands {
 
 namespace {
 
+void add_trajectory_options(CLI::App& command, SimulateOptions& options) {
+  command.add_option("--trajectory", options.trajectory, "Trajectory file: .json, .csv or .npz")
+      ->type_name("FILE")
+      ->envname("RPSUP_TRAJECTORY");
+  add_format_option(command, options.format, DataShape::kColumns);
+  command
+      .add_option("--channels", options.channels,
+                  "Channels of the trajectory, separated by commas; all if left out")
+      ->delimiter(',')
+      ->envname("RPSUP_CHANNELS");
+}
+
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const command = app.add_subcommand("simulate", "Compute one job and print it as JSON");
   command->add_option("file", options.file, "JSON file with the parameters; - reads standard input")
       ->required()
       ->type_name("FILE");
-  command->add_option("--trajectory", options.trajectory, "Trajectory file: .json, .csv or .npz")
-      ->type_name("FILE")
-      ->envname("RPSUP_TRAJECTORY");
-  add_format_option(*command, options.format, DataShape::kColumns);
-  command
-      ->add_option("--channels", options.channels,
-                   "Channels of the trajectory, separated by commas; all if left out")
-      ->delimiter(',')
-      ->envname("RPSUP_CHANNELS");
+  add_trajectory_options(*command, options);
   command
       ->add_option("--plot", options.plot,
                    "Plot of the slider's acceleration, a file that ends in .svg; without a name, or with -, "
@@ -165,6 +169,20 @@ CLI::App* add_paper(CLI::App& app, PaperOptions& options) {
   return command;
 }
 
+void add_trajectory_options(CLI::App& command, ExportOptions& options) {
+  CLI::Option* const sweep =
+      command
+          .add_option("--trajectories", options.sweep,
+                      "Sweep whose results and trajectories are written instead: .h5, .mat or .npz; no "
+                      "service may use the store, which rpsup trajectory asks")
+          ->type_name("SWEEP");
+  command.add_option("--channels", options.channels, "Channels, separated by commas; all if left out")
+      ->envname("RPSUP_CHANNELS");
+  command.add_option("--from", options.from, "Begin of the trajectories in s")->needs(sweep);
+  command.add_option("--to", options.to, "End of the trajectories in s")->needs(sweep);
+  add_format_option(command, options.format, DataShape::kTrajectories);
+}
+
 CLI::App* add_export(CLI::App& app, ExportOptions& options) {
   CLI::App* const command =
       app.add_subcommand("export", "Write a consistent copy of a store, even while a service uses it, or the "
@@ -175,17 +193,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       ->check(describe_store_name_fault)
       ->type_name("FILE");
   add_store_option(*command, options.store, "SQLite file of sweeps and results")->required();
-  CLI::Option* const sweep =
-      command
-          ->add_option("--trajectories", options.sweep,
-                       "Sweep whose results and trajectories are written instead: .h5, .mat or .npz; no "
-                       "service may use the store, which rpsup trajectory asks")
-          ->type_name("SWEEP");
-  command->add_option("--channels", options.channels, "Channels, separated by commas; all if left out")
-      ->envname("RPSUP_CHANNELS");
-  command->add_option("--from", options.from, "Begin of the trajectories in s")->needs(sweep);
-  command->add_option("--to", options.to, "End of the trajectories in s")->needs(sweep);
-  add_format_option(*command, options.format, DataShape::kTrajectories);
+  add_trajectory_options(*command, options);
   return command;
 }
 
@@ -269,13 +277,7 @@ bool tell_unknown_option(const CLI::App& app) {
   return false;
 }
 
-/// @param remote  commands that speak to a service
-void describe(CLI::App& app, const std::vector<Command>& remote) {
-  app.set_version_flag("--version", "rpsup " + std::string(jobs::kProgramVersionText),
-                       "Print the version and exit");
-  std::vector<std::string> remote_names;
-  for (const Command& command : remote) remote_names.push_back(command.line->get_name());
-  app.config_formatter(std::make_shared<ConfigFile>(app, std::move(remote_names)));
+void add_config_option(CLI::App& app) {
   // The library reads this file before the environment, so the name in the environment is its default.
   const char* const named = std::getenv("RPSUP_CONFIG");
   app.set_config("--config", named == nullptr ? find_user_config() : named,
@@ -286,6 +288,16 @@ void describe(CLI::App& app, const std::vector<Command>& remote) {
       ->check(describe_config_file_fault)
       ->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+/// @param remote  commands that speak to a service
+void describe(CLI::App& app, const std::vector<Command>& remote) {
+  app.set_version_flag("--version", "rpsup " + std::string(jobs::kProgramVersionText),
+                       "Print the version and exit");
+  std::vector<std::string> remote_names;
+  for (const Command& command : remote) remote_names.push_back(command.line->get_name());
+  app.config_formatter(std::make_shared<ConfigFile>(app, std::move(remote_names)));
+  add_config_option(app);
   app.require_subcommand(1);
   app.footer(
       "Each option can also be given in the environment (see the names above) or in the --config file. The "

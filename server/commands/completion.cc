@@ -95,6 +95,17 @@ std::string fish_values(const OptionEntry& option) {
   return option.value == kFile ? " -r -F" : " -x";
 }
 
+/// What fish is to offer after a command: an option, or an argument of which it knows something.
+/// @param here  condition that the command stands in the line
+std::string fish_line(const OptionEntry& option, const std::string& command, const std::string& here) {
+  const std::string begin = "complete -c rpsup" + here;
+  if (!option.argument)
+    return begin + " -l " + option.name.substr(2) + fish_values(option) + " -d " + quoted(option.help) + "\n";
+  if (!option.choices.empty()) return begin + " -a " + quoted(spaced(option.choices)) + "\n";
+  if (option.value == kIdType) return begin + " -a " + quoted("(" + list_ids("rpsup", command) + ")") + "\n";
+  return option.value == kFile ? begin + " -F\n" : "";
+}
+
 }  // namespace
 
 std::string make_bash_completion(const std::vector<CommandEntry>& commands) {
@@ -199,19 +210,7 @@ std::string make_fish_completion(const std::vector<CommandEntry>& commands) {
     if (!program)
       text += "complete -c rpsup -n __fish_use_subcommand -a " + command.name + " -d " +
               quoted(command.help) + "\n";
-    for (const OptionEntry& option : command.options) {
-      if (!option.argument) {
-        text += "complete -c rpsup" + here + " -l " + option.name.substr(2) + fish_values(option) + " -d " +
-                quoted(option.help) + "\n";
-      } else if (!option.choices.empty()) {
-        text += "complete -c rpsup" + here + " -a " + quoted(spaced(option.choices)) + "\n";
-      } else if (option.value == kIdType) {
-        text += "complete -c rpsup" + here + " -a " +
-                quoted("(" + list_ids("rpsup", command.name) + ")") + "\n";
-      } else if (option.value == kFile) {
-        text += "complete -c rpsup" + here + " -F\n";
-      }
-    }
+    for (const OptionEntry& option : command.options) text += fish_line(option, command.name, here);
   }
   return text;
 }

@@ -35,6 +35,17 @@ void skip_byte_order_mark(std::istream& input) {
 /// "++" and "--" are the parser's marks of where a section begins and ends.
 bool is_mark(const CLI::ConfigItem& item) { return item.name == "++" || item.name == "--"; }
 
+/// Adds what stands above the sections to those of some commands.
+void add_to_sections(const std::vector<CLI::ConfigItem>& shared, const std::vector<std::string>& commands,
+                     std::vector<CLI::ConfigItem>& items) {
+  for (const CLI::ConfigItem& item : shared) {
+    for (const std::string& command : commands) {
+      items.push_back(item);
+      items.back().parents = {command};
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
@@ -47,13 +58,7 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
     const bool of_program = app_.get_option_no_throw("--" + item.name) != nullptr;
     (item.parents.empty() && !is_mark(item) && !of_program ? shared : given).push_back(std::move(item));
   }
-  // After the sections, since the first value counts.
-  for (const CLI::ConfigItem& item : shared) {
-    for (const std::string& command : remote_) {
-      given.push_back(item);
-      given.back().parents = {command};
-    }
-  }
+  add_to_sections(shared, remote_, given);  // after the sections, since the first value counts
   std::erase_if(given, [&](const CLI::ConfigItem& item) { return is_in_environment(item); });
   return given;
 }

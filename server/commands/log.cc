@@ -61,6 +61,16 @@ class QueueSink final : public spdlog::sinks::base_sink<std::mutex> {
   std::size_t lost_ = 0;  ///< lines that found no room, and that the log has not told of
 };
 
+/// Writes as much of the lines as can be written, and waits for a reader that is slow.
+void write_lines(int descriptor, std::string_view lines) {
+  while (!lines.empty()) {
+    const ssize_t written = ::write(descriptor, lines.data(), lines.size());
+    if (written < 0 && errno != EINTR && errno != EAGAIN) return;  // gone for good, or a disk that is full
+    if (written < 0 && errno == EAGAIN) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    lines.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+  }
+}
+
 }  // namespace
 
 struct LineQueue::State {
@@ -101,13 +111,7 @@ void LineQueue::work(const std::shared_ptr<State>& state) {
     if (state->queued.empty()) break;
     lines = std::exchange(state->queued, {});
     lock.unlock();
-    std::string_view left = lines;
-    while (!left.empty()) {
-      const ssize_t written = ::write(state->descriptor, left.data(), left.size());
-      if (written < 0 && errno != EINTR && errno != EAGAIN) break;  // gone for good, or a disk that is full
-      if (written < 0 && errno == EAGAIN) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      left.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
-    }
+    write_lines(state->descriptor, lines);
     lock.lock();
   }
   state->ended = true;

@@ -58,6 +58,14 @@ void append_lines_to(std::string& page, const std::string& text) {
   for (std::string line; std::getline(lines, line);) page += escaped(line) + "\n.br\n";
 }
 
+void append_command_to(std::string& page, const CommandEntry& program, CommandEntry command) {
+  page += ".SS " + escaped(synopsis(program.name, command)) + "\n" + escaped(command.help) + ".\n";
+  std::erase_if(command.options, [](const OptionEntry& option) { return option.name == "--help"; });
+  append_options_to(page, command);
+  // The parser hands the program's down to commands that have none.
+  if (command.footer != program.footer) append_lines_to(page += ".PP\n", command.footer);
+}
+
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -75,14 +83,8 @@ std::string make_man_page(const std::vector<CommandEntry>& commands, const std::
   page += ".SH OPTIONS\nOf every command, beside its own.\n";
   append_options_to(page, program);
   page += ".SH COMMANDS\n";
-  for (auto command = commands.begin() + 1; command != commands.end(); ++command) {
-    page += ".SS " + escaped(synopsis(program.name, *command)) + "\n" + escaped(command->help) + ".\n";
-    CommandEntry own = *command;
-    std::erase_if(own.options, [](const OptionEntry& option) { return option.name == "--help"; });
-    append_options_to(page, own);
-    // The parser hands the program's down to commands that have none.
-    if (own.footer != program.footer) append_lines_to(page += ".PP\n", own.footer);
-  }
+  for (auto command = commands.begin() + 1; command != commands.end(); ++command)
+    append_command_to(page, program, *command);
   append_lines_to(page += ".SH NOTES\n", program.footer);
   return page;
 }

@@ -91,6 +91,15 @@ void add_files(const CLI::App& app, std::vector<NamedFile>& inputs, std::vector<
   }
 }
 
+/// Of two outputs in one file the second would replace the first.
+void check_outputs_differ(const std::vector<NamedFile>& outputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    for (auto other = outputs.begin(); other != output; ++other) {
+      if (is_same(*output, *other)) throw BadInput(output->name + ": is the same file as " + other->name);
+    }
+  }
+}
+
 }  // namespace
 
 void check_outputs(const CLI::App& program, const CLI::App& command) {
@@ -98,12 +107,7 @@ void check_outputs(const CLI::App& program, const CLI::App& command) {
   std::vector<NamedFile> outputs;
   add_files(program, inputs, outputs);
   add_files(command, inputs, outputs);
-  // Of two outputs the second would replace the first.
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    for (auto other = outputs.begin(); other != output; ++other) {
-      if (is_same(*output, *other)) throw BadInput(output->name + ": is the same file as " + other->name);
-    }
-  }
+  check_outputs_differ(outputs);
   add_descriptor(STDOUT_FILENO, "standard output", outputs);
   add_descriptor(STDERR_FILENO, "standard error", outputs);
   for (const NamedFile& output : outputs) {

@@ -89,19 +89,24 @@ std::string make_statement_table(const std::vector<Row>& rows) {
   return text;
 }
 
+/// Sensitivity indices of a ratio by parameter, the largest first, without negligible ones.
+std::vector<std::pair<double, std::string>> find_indices(const Row& row) {
+  constexpr double kNegligible = 0.02;
+  std::vector<std::pair<double, std::string>> indices;
+  for (const auto& [column, value] : row)
+    if (column.starts_with("index.") && value.is_number() && value.get<double>() >= kNegligible)
+      indices.emplace_back(value.get<double>(), column.substr(column.find('.') + 1));
+  std::ranges::sort(indices, std::greater<>());
+  return indices;
+}
+
 /// For each of the seven the parameters that decide it, most first.
 std::string make_index_table(const std::vector<Row>& rows) {
-  constexpr double kNegligible = 0.02;
   std::string text = "\nfirst-order sensitivity indices of each ratio (those of 0.02 and more)\n";
   for (const Row& row : rows) {
     if (row.at("number").is_null()) continue;
-    std::vector<std::pair<double, std::string>> indices;
-    for (const auto& [column, value] : row)
-      if (column.starts_with("index.") && value.is_number() && value.get<double>() >= kNegligible)
-        indices.emplace_back(value.get<double>(), column.substr(column.find('.') + 1));
-    std::ranges::sort(indices, std::greater<>());
     text += pad(std::to_string(row.at("number").get<int>()), 3);
-    for (const auto& [index, parameter] : indices)
+    for (const auto& [index, parameter] : find_indices(row))
       text += terminal_text(parameter) + format_number(" %.2f  ", index);
     text += "\n";
   }

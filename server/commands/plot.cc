@@ -34,14 +34,8 @@ struct Drawn {
   std::string title;
 };
 
-Drawn choose_drawn(const engine::Trajectory& trajectory) {
-  const auto named = [&](std::string_view name) {
-    return find_channel(trajectory, [&](std::string_view key) { return key == name; });
-  };
-  const auto least = named("slider_acceleration_min_m_s2");
-  const auto most = named("slider_acceleration_max_m_s2");
-  if (least && most)
-    return {trajectory.columns.at(*least), trajectory.columns.at(*most), AccelerationBand{}.title};
+/// The first acceleration that a described linkage has.
+Drawn find_acceleration(const engine::Trajectory& trajectory) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kUnits{
       {{"_m_s2", "m/s^2"}, {"_rad_s2", "rad/s^2"}}};
   for (const auto& [suffix, unit] : kUnits) {
@@ -53,6 +47,17 @@ Drawn choose_drawn(const engine::Trajectory& trajectory) {
             "acceleration of " + key.substr(0, key.size() - suffix.size()) + ", " + std::string(unit)};
   }
   throw std::logic_error("the trajectory has no acceleration");
+}
+
+Drawn choose_drawn(const engine::Trajectory& trajectory) {
+  const auto named = [&](std::string_view name) {
+    return find_channel(trajectory, [&](std::string_view key) { return key == name; });
+  };
+  const auto least = named("slider_acceleration_min_m_s2");
+  const auto most = named("slider_acceleration_max_m_s2");
+  if (least && most)
+    return {trajectory.columns.at(*least), trajectory.columns.at(*most), AccelerationBand{}.title};
+  return find_acceleration(trajectory);
 }
 
 /// Where the axis of values begins and ends: multiples of a round step around the values and zero.
@@ -143,6 +148,69 @@ std::string right_aligned(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
+/// Number at the left of a row of characters: both ends of the axis and zero have one.
+std::string make_row_label(const Axis& axis, std::size_t row, std::size_t rows) {
+  const double per_row = (axis.top - axis.bottom) / static_cast<double>(rows);
+  const auto zero_row = std::min(static_cast<std::size_t>(axis.top / per_row), rows - 1);
+  if (row == 0) return number(axis.top);
+  if (row == rows - 1) return number(axis.bottom);
+  return row == zero_row ? "0" : "";
+}
+
+/// Begin and end of the run, below both ends of the rows.
+/// @param width  of a row without its label, in characters
+std::string make_time_line(const AccelerationBand& band, std::size_t width) {
+  const std::string begin = number(band.t_begin);
+  const std::string end = number(band.t_end) + " s";
+  return std::string(kMargin, ' ') + begin + right_aligned(end, width - begin.size()) + "\n";
+}
+
+// The field of the curve in an SVG, in pixels.
+constexpr double kSvgLeft = 70, kSvgTop = 30, kSvgHeight = 320, kSvgWidth = kSvgColumns;
+
+double svg_y(const Axis& axis, double value) {
+  return kSvgTop + kSvgHeight * (axis.top - value) / (axis.top - axis.bottom);
+}
+
+std::string svg_label(double x, double y, const char* anchor, const std::string& text) {
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text +
+         "</text>\n";
+}
+
+std::string draw_value_axis(const Axis& axis) {
+  std::string svg;
+  for (int i = 0; axis.bottom + i * axis.step <= axis.top + 0.5 * axis.step; ++i) {
+    const double y = svg_y(axis, axis.bottom + i * axis.step);
+    svg += "<path d=\"M70 " + number(y) + "H870\" stroke=\"#ddd\"/>\n" +
+           svg_label(62, y + 4, "end", number(axis.bottom + i * axis.step));
+  }
+  return svg;
+}
+
+std::string draw_curve(const AccelerationBand& band, const Axis& axis) {
+  std::string path;
+  for (std::size_t i = 0; i < band.least.size(); ++i) {
+    const double x =
+        kSvgLeft + kSvgWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(band.least.size());
+    // Half a pixel more at both ends: a line that lies still would else be none.
+    path += "M" + number(x) + " " + number(svg_y(axis, band.most[i]) - 0.5) + "V" +
+            number(svg_y(axis, band.least[i]) + 0.5);
+  }
+  const double stroke = band.least.empty() ? 1.0 : kSvgWidth / static_cast<double>(band.least.size());
+  return "<path d=\"" + path + "\" stroke=\"#d95f02\" stroke-width=\"" + number(stroke) +
+         "\" fill=\"none\"/>\n";
+}
+
+std::string draw_time_axis(const AccelerationBand& band) {
+  std::string svg;
+  for (int i = 0; i <= 4; ++i) {
+    const double part = 0.25 * i;
+    svg += svg_label(kSvgLeft + part * kSvgWidth, 368, "middle",
+                     number(band.t_begin + part * (band.t_end - band.t_begin)));
+  }
+  return svg + svg_label(kSvgLeft + 0.5 * kSvgWidth, 390, "middle", "time, s");
+}
+
 }  // namespace
 
 AccelerationBand calc_acceleration_band(const engine::Trajectory& trajectory, std::size_t columns) {
@@ -170,62 +238,23 @@ std::string draw_for_terminal(const AccelerationBand& band, const TerminalSize& 
   Canvas canvas(plot_columns(size) / kDotsAcross, plot_rows(size));
   draw(band, axis, canvas);
   const std::size_t rows = plot_rows(size);
-  const double per_row = (axis.top - axis.bottom) / static_cast<double>(rows);
-  const auto zero_row = std::min(static_cast<std::size_t>(axis.top / per_row), rows - 1);
   std::string text = band.title + "\n";
   for (std::size_t y = 0; y < rows; ++y) {
-    std::string label;
-    if (y == 0) label = number(axis.top);
-    else if (y == rows - 1) label = number(axis.bottom);
-    else if (y == zero_row) label = "0";
-    const std::string row = canvas.row(y, characters);
-    text += right_aligned(label, kMargin - 2) + " |" + row + "\n";
+    const std::string label = right_aligned(make_row_label(axis, y, rows), kMargin - 2);
+    text += label + " |" + canvas.row(y, characters) + "\n";
   }
-  const std::string begin = number(band.t_begin);
-  const std::string end = number(band.t_end) + " s";
-  text += std::string(kMargin, ' ') + begin +
-          right_aligned(end, plot_columns(size) / kDotsAcross - begin.size()) + "\n";
-  return text;
+  return text + make_time_line(band, plot_columns(size) / kDotsAcross);
 }
 
 std::string draw_svg(const AccelerationBand& band) {
-  constexpr double kLeft = 70, kTop = 30, kHeight = 320, kWidth = kSvgColumns;
   const Axis axis = make_axis(band);
-  const auto y_of = [&](double value) {
-    return kTop + kHeight * (axis.top - value) / (axis.top - axis.bottom);
-  };
-  const auto text_at = [](double x, double y, const char* anchor, const std::string& text) {
-    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\">" + text +
-           "</text>\n";
-  };
-  std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 400\" font-family=\"sans-serif\" "
-      "font-size=\"13\" fill=\"#222\">\n"
-      "<rect width=\"900\" height=\"400\" fill=\"#fff\"/>\n";
-  for (int i = 0; axis.bottom + i * axis.step <= axis.top + 0.5 * axis.step; ++i) {
-    const double y = y_of(axis.bottom + i * axis.step);
-    svg += "<path d=\"M70 " + number(y) + "H870\" stroke=\"#ddd\"/>\n" +
-           text_at(62, y + 4, "end", number(axis.bottom + i * axis.step));
-  }
-  std::string path;
-  for (std::size_t i = 0; i < band.least.size(); ++i) {
-    const double x = kLeft + kWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(band.least.size());
-    // Half a pixel more at both ends: a line that lies still would else be none.
-    path +=
-        "M" + number(x) + " " + number(y_of(band.most[i]) - 0.5) + "V" + number(y_of(band.least[i]) + 0.5);
-  }
-  const double stroke = band.least.empty() ? 1.0 : kWidth / static_cast<double>(band.least.size());
-  svg +=
-      "<path d=\"" + path + "\" stroke=\"#d95f02\" stroke-width=\"" + number(stroke) + "\" fill=\"none\"/>\n";
-  for (int i = 0; i <= 4; ++i) {
-    const double part = 0.25 * i;
-    svg += text_at(kLeft + part * kWidth, 368, "middle",
-                   number(band.t_begin + part * (band.t_end - band.t_begin)));
-  }
   std::string title = band.title;
   if (title.ends_with("^2")) title.replace(title.size() - 2, 2, "\u00b2");
-  return svg + text_at(kLeft + 0.5 * kWidth, 390, "middle", "time, s") + text_at(kLeft, 18, "start", title) +
-         "</svg>\n";
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 400\" font-family=\"sans-serif\" "
+         "font-size=\"13\" fill=\"#222\">\n"
+         "<rect width=\"900\" height=\"400\" fill=\"#fff\"/>\n" +
+         draw_value_axis(axis) + draw_curve(band, axis) + draw_time_axis(band) +
+         svg_label(kSvgLeft, 18, "start", title) + "</svg>\n";
 }
 
 }  // namespace server::commands

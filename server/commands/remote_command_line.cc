@@ -65,6 +65,31 @@ Command add_submit(CLI::App& app) {
   return make_remote_command(command, options, submit);
 }
 
+/// What the columns of a file of measured signals are.
+void add_column_options(CLI::App& command, MeasureOptions& options) {
+  command.add_option("--time", options.time,
+                     "Column of the time in s; time_s, t_s or the first one if left out");
+  command
+      .add_option("--channel", options.channels,
+                  "Column that is read, and channel of a trajectory that it measures, such as "
+                  "acc=slider_acceleration_m_s2; may be repeated. Every column if left out")
+      ->type_name("COLUMN=CHANNEL")
+      ->allow_extra_args(false);
+}
+
+/// What is known of the sensors and of the run.
+void add_description_options(CLI::App& command, MeasureOptions& options) {
+  command
+      .add_option("--sensors", options.sensors,
+                  "Corrections of sensors by channel, such as '{\"slider_acceleration_m_s2\": {\"sign\": "
+                  "-1, \"gain\": 9.81, \"offset\": 0, \"delay_s\": 0.0002, \"low_pass_hz\": 2000}}'")
+      ->type_name("JSON");
+  command
+      .add_option("--parameters", options.parameters,
+                  "Parameters that are known of the run, such as '{\"crank_velocity_rad_s\": 10}'")
+      ->type_name("JSON");
+}
+
 Command add_measure(CLI::App& app) {
   const auto options = std::make_shared<MeasureOptions>();
   CLI::App* const command = add_command(
@@ -76,23 +101,8 @@ Command add_measure(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   command->add_option("--name", options->name, "Name of the measurement; that of the file if left out");
-  command->add_option("--time", options->time,
-                      "Column of the time in s; time_s, t_s or the first one if left out");
-  command
-      ->add_option("--channel", options->channels,
-                   "Column that is read, and channel of a trajectory that it measures, such as "
-                   "acc=slider_acceleration_m_s2; may be repeated. Every column if left out")
-      ->type_name("COLUMN=CHANNEL")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--sensors", options->sensors,
-                   "Corrections of sensors by channel, such as '{\"slider_acceleration_m_s2\": {\"sign\": "
-                   "-1, \"gain\": 9.81, \"offset\": 0, \"delay_s\": 0.0002, \"low_pass_hz\": 2000}}'")
-      ->type_name("JSON");
-  command
-      ->add_option("--parameters", options->parameters,
-                   "Parameters that are known of the run, such as '{\"crank_velocity_rad_s\": 10}'")
-      ->type_name("JSON");
+  add_column_options(*command, *options);
+  add_description_options(*command, *options);
   return make_remote_command(command, options, measure);
 }
 
@@ -109,30 +119,39 @@ CLI::Option* add_output_option(CLI::App& command, std::string& output, const cha
       ->envname("RPSUP_OUTPUT");
 }
 
+/// Which resources are listed where no id is given.
+void add_list_options(CLI::App& command, CLI::Option* id, StatusOptions& options) {
+  command.add_option("--kind", options.kind, "Kind of what is listed without an id")
+      ->check(CLI::IsMember(words_of(kAllKinds)))
+      ->capture_default_str()
+      ->excludes(id);
+  command.add_option("--state", options.state, "State of what is listed, such as failed; any if left out")
+      ->excludes(id);
+  command.add_option("--limit", options.limit, "Most lines of the list; 50 if left out")
+      ->type_name("UINT")
+      ->excludes(id);
+}
+
+void add_ids_option(CLI::App& command, StatusOptions& options) {
+  std::vector<std::string> names;
+  for (const IdCommand& each : kIdCommands) names.emplace_back(each.name);
+  command
+      .add_option("--ids", options.ids_for,
+                  "Ids that a command takes, one a line, instead of a state; waits for 1 s at most, for the "
+                  "completion of shells")
+      ->check(CLI::IsMember(names))
+      ->type_name("COMMAND");
+}
+
 Command add_status(CLI::App& app) {
   const auto options = std::make_shared<StatusOptions>();
   CLI::App* const command = add_command(
       app, "status",
       "Print the state of a sweep, a job, a study or a measurement, or list the newest of a kind", *options);
   CLI::Option* const id = add_id_option(*command, options->id);
-  command->add_option("--kind", options->kind, "Kind of what is listed without an id")
-      ->check(CLI::IsMember(words_of(kAllKinds)))
-      ->capture_default_str()
-      ->excludes(id);
-  command->add_option("--state", options->state, "State of what is listed, such as failed; any if left out")
-      ->excludes(id);
-  command->add_option("--limit", options->limit, "Most lines of the list; 50 if left out")
-      ->type_name("UINT")
-      ->excludes(id);
+  add_list_options(*command, id, *options);
   command->add_flag("--json", options->json, "JSON of the service instead of text");
-  std::vector<std::string> names;
-  for (const IdCommand& each : kIdCommands) names.emplace_back(each.name);
-  command
-      ->add_option("--ids", options->ids_for,
-                   "Ids that a command takes, one a line, instead of a state; waits for 1 s at most, for the "
-                   "completion of shells")
-      ->check(CLI::IsMember(names))
-      ->type_name("COMMAND");
+  add_ids_option(*command, *options);
   return make_remote_command(command, options, status);
 }
 
@@ -144,6 +163,22 @@ Command add_watch(CLI::App& app) {
   return make_remote_command(command, options, watch);
 }
 
+/// Which columns and rows of a table are printed, and in which order.
+void add_row_options(CLI::App& command, ResultsOptions& options) {
+  command.add_option("--fields", options.fields,
+                     "Columns in this order, separated by commas; all if left out");
+  command
+      .add_option("--where", options.where,
+                  "Condition on the rows: a column, one of = < > <= >= and a value; may be repeated, and all "
+                  "must hold")
+      ->type_name("COLUMN=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--order-by", options.order_by,
+                     "Columns by which the rows are ordered, separated by commas; --order-by=-COLUMN puts "
+                     "the largest first");
+  command.add_option("--limit", options.limit, "Most rows; all if left out")->type_name("UINT");
+}
+
 Command add_results(CLI::App& app) {
   const auto options = std::make_shared<ResultsOptions>();
   CLI::App* const command = add_command(
@@ -152,22 +187,20 @@ Command add_results(CLI::App& app) {
   add_format_option(*command, options->format, DataShape::kRows);
   add_output_option(*command, options->output,
                     "Output file: .json, .csv or .ndjson; - writes standard output");
-  command->add_option("--fields", options->fields,
-                      "Columns in this order, separated by commas; all if left out");
-  command
-      ->add_option(
-          "--where", options->where,
-          "Condition on the rows: a column, one of = < > <= >= and a value; may be repeated, and all "
-          "must hold")
-      ->type_name("COLUMN=VALUE")
-      ->allow_extra_args(false);
-  command->add_option(
-      "--order-by", options->order_by,
-      "Columns by which the rows are ordered, separated by commas; --order-by=-COLUMN puts the "
-      "largest first");
-  command->add_option("--limit", options->limit, "Most rows; all if left out")->type_name("UINT");
+  add_row_options(*command, *options);
   command->add_option("--metric", options->metric, "Metric of the statistics of replicates, of a sweep");
   return make_remote_command(command, options, results);
+}
+
+/// Which samples of a trajectory or a measurement are printed.
+void add_sample_options(CLI::App& command, TrajectoryOptions& options) {
+  command.add_option("--from", options.from, "Begin in s")->type_name("FLOAT");
+  command.add_option("--to", options.to, "End in s")->type_name("FLOAT");
+  command
+      .add_option("--points", options.points,
+                  "Most samples: each stretch of time keeps those at which a channel is smallest and largest")
+      ->type_name("UINT");
+  command.add_option("--run", options.run, "Run of a measurement; the first if left out")->type_name("UINT");
 }
 
 Command add_trajectory(CLI::App& app) {
@@ -179,15 +212,7 @@ Command add_trajectory(CLI::App& app) {
   add_id_option(*command, options->id)->required();
   command->add_option("--channels", options->channels, "Channels, separated by commas; all if left out")
       ->envname("RPSUP_CHANNELS");
-  command->add_option("--from", options->from, "Begin in s")->type_name("FLOAT");
-  command->add_option("--to", options->to, "End in s")->type_name("FLOAT");
-  command
-      ->add_option(
-          "--points", options->points,
-          "Most samples: each stretch of time keeps those at which a channel is smallest and largest")
-      ->type_name("UINT");
-  command->add_option("--run", options->run, "Run of a measurement; the first if left out")
-      ->type_name("UINT");
+  add_sample_options(*command, *options);
   add_format_option(*command, options->format, DataShape::kColumns);
   add_output_option(*command, options->output,
                     "Output file: .json, .csv or .npz, and .h5, .mat or .npz of a sweep; - writes standard "

@@ -27,22 +27,34 @@ std::string column_and_channel(const std::string& option) {
   return option.substr(0, equals) + ":" + option.substr(equals + 1);
 }
 
-/// Query of a measurement. JSON says the same itself. @throws BadInput
+/// Refuses the options of CSV and NPZ beside JSON, which says the same itself. @throws BadInput
+void refuse_column_options(const MeasureOptions& options) {
+  if (options.name.empty() && options.time.empty() && options.channels.empty() && options.sensors.empty() &&
+      options.parameters.empty())
+    return;
+  throw BadInput(
+      "--name, --time, --channel, --sensors and --parameters are for CSV and NPZ; JSON holds them itself");
+}
+
+/// "a:channel_1,b:channel_2". @throws BadInput
+std::string join_channels(const std::vector<std::string>& options) {
+  std::string channels;
+  for (const std::string& option : options)
+    channels += (channels.empty() ? "" : ",") + column_and_channel(option);
+  return channels;
+}
+
+/// Query of a measurement. @throws BadInput
 QueryItems measurement_query(const MeasureOptions& options, const std::string& media_type) {
   if (media_type == kJsonType) {
-    if (options.name.empty() && options.time.empty() && options.channels.empty() && options.sensors.empty() &&
-        options.parameters.empty())
-      return {};
-    throw BadInput(
-        "--name, --time, --channel, --sensors and --parameters are for CSV and NPZ; JSON holds them itself");
+    refuse_column_options(options);
+    return {};
   }
   QueryItems query;
   const std::string file = options.file == "-" ? "" : std::filesystem::path(options.file).filename().string();
   query.emplace_back("name", options.name.empty() ? file : options.name);
   if (!options.time.empty()) query.emplace_back("time", options.time);
-  std::string channels;
-  for (const std::string& channel : options.channels)
-    channels += (channels.empty() ? "" : ",") + column_and_channel(channel);
+  const std::string channels = join_channels(options.channels);
   if (!channels.empty()) query.emplace_back("channels", channels);
   if (!options.sensors.empty()) query.emplace_back("sensors", options.sensors);
   if (!options.parameters.empty()) query.emplace_back("parameters", options.parameters);

@@ -89,16 +89,23 @@ class GrowingFile {
   bool is_kept_ = false;
 };
 
-/// Writes the trajectories of all jobs of a sweep, as they come.
-int save_trajectories(const TrajectoryOptions& options, const OutputFile& output, const QueryItems& query) {
-  constexpr std::chrono::minutes kPatience{10};  // the service makes the file before it sends any of it
+constexpr std::chrono::minutes kFilePatience{10};  // the service makes the file before it sends any of it
+
+/// Format of the trajectories of a sweep. @throws BadInput
+TableFormat check_sweep_file(const TrajectoryOptions& options, const OutputFile& output) {
   const TableFormat format = check_output(output, options.format, DataShape::kTrajectories);
   if (!options.points.empty() || !options.run.empty())
     throw BadInput("--points and --run are for a job or a measurement; a file of a sweep has every sample");
   if (output.path == "-" && isatty(STDOUT_FILENO) != 0)
     throw BadInput("a file of trajectories is no text: give its name with --output");
+  return format;
+}
+
+/// Writes the trajectories of all jobs of a sweep, as they come.
+int save_trajectories(const TrajectoryOptions& options, const OutputFile& output, const QueryItems& query) {
+  const TableFormat format = check_sweep_file(options, output);
   RemoteService service(options.remote);
-  service.set_patience(kPatience);
+  service.set_patience(kFilePatience);
   GrowingFile file(output.path);
   bool is_written = true;
   try {

@@ -33,22 +33,33 @@ int number_in_environment(const char* name, int largest) {
   return number;
 }
 
-}  // namespace
-
-int run_task(const RunTaskOptions& options) {
+int find_task_index(const RunTaskOptions& options) {
   constexpr int kLargestIndex = 100'000'000;
   const int index =
       options.index >= 0 ? options.index : number_in_environment("SLURM_ARRAY_TASK_ID", kLargestIndex);
   if (index < 0)
     throw BadInput(
         "--index is missing, and there is no SLURM_ARRAY_TASK_ID: this is no task of an array of Slurm");
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : std::max(1, number_in_environment("SLURM_CPUS_PER_TASK", kMostThreads));
+  return index;
+}
+
+int find_task_threads(const RunTaskOptions& options) {
+  if (options.threads > 0) return options.threads;
+  return std::max(1, number_in_environment("SLURM_CPUS_PER_TASK", kMostThreads));
+}
+
+std::string describe_program(const jobs::Provenance& program) {
+  return "rpsup " + program.version + " (" + program.commit + "), engine " + program.engine + ", " +
+         program.libm + ", " + program.cpu + ", " + program.host;
+}
+
+}  // namespace
+
+int run_task(const RunTaskOptions& options) {
+  const int index = find_task_index(options);
+  const int threads = find_task_threads(options);
   const EndSignals signals;
-  const jobs::Provenance& own = jobs::own_provenance();
-  std::cerr << "rpsup " << own.version << " (" << own.commit << "), engine " << own.engine << ", " << own.libm
-            << ", " << own.cpu << ", " << own.host << '\n';
+  std::cerr << describe_program(jobs::own_provenance()) << '\n';
   const bool complete = jobs::cluster::run_task(
       {.folder = options.folder,
        .generation = options.generation,

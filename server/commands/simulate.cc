@@ -94,6 +94,12 @@ engine::Trajectory select(engine::Trajectory all, const std::vector<std::string>
   return some;
 }
 
+/// Writes what the service would give: values as they are stored, of the channels that were asked for.
+void write_trajectory(const SimulateOptions& options, TableFormat format, const engine::Trajectory& all) {
+  const auto trajectory = select(jobs::rounded_to_stored(all), options.channels);
+  write_text(options.trajectory, trajectory_text(format, trajectory));
+}
+
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
@@ -102,11 +108,7 @@ int simulate(const SimulateOptions& options) {
   const nlohmann::json parameters = read_json(options.file);
   check_channels(options, jobs::to_job_spec(jobs::complete_parameters(parameters, "")));
   const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
-  if (format) {
-    const auto trajectory = select(jobs::rounded_to_stored(outcome.trajectory),
-                                   options.channels);  // as the service would give it
-    write_text(options.trajectory, trajectory_text(*format, trajectory));
-  }
+  if (format) write_trajectory(options, *format, outcome.trajectory);
   const bool on_terminal = options.plot == "-";
   if (!options.plot.empty() && !on_terminal) plot_to_file(options.plot, outcome.trajectory);
   write_text("-", to_text(outcome.job, 2) + "\n");

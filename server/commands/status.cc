@@ -135,6 +135,14 @@ std::string describe_list(const Json& items) {
   return out.str();
 }
 
+void print_list(RemoteService& service, const StatusOptions& options) {
+  QueryItems query;
+  if (!options.state.empty()) query.emplace_back("state", options.state);
+  if (!options.limit.empty()) query.emplace_back("limit", options.limit);
+  const Json page = service.list(kind_of_word(options.kind), query);
+  write_text("-", options.json ? to_text(page, 2) + "\n" : describe_list(page.at("items")));
+}
+
 }  // namespace
 
 int status(const StatusOptions& options) {
@@ -144,11 +152,7 @@ int status(const StatusOptions& options) {
   }
   RemoteService service(options.remote);
   if (options.id.empty()) {
-    QueryItems query;
-    if (!options.state.empty()) query.emplace_back("state", options.state);
-    if (!options.limit.empty()) query.emplace_back("limit", options.limit);
-    const Json page = service.list(kind_of_word(options.kind), query);
-    write_text("-", options.json ? to_text(page, 2) + "\n" : describe_list(page.at("items")));
+    print_list(service, options);
     return kDone;
   }
   const Kind kind = checked_kind("status", options.id);

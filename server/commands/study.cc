@@ -127,19 +127,25 @@ std::string store_here(jobs::Service& service, const MeasuredFile& file, const o
   return stored.at("id");
 }
 
-/// The same in a running service.
-std::string store_there(RemoteService& service, const RemoteOptions& remote, const MeasuredFile& file,
-                        const ordered_json& entry) {
-  MeasureOptions options{.remote = remote, .file = file.path, .name = {}, .time = {}, .channels = {}};
+/// What rpsup measure is given to store such a file.
+MeasureOptions make_measure_options(const RemoteOptions& remote, const std::string& path,
+                                    const ordered_json& entry) {
+  MeasureOptions options{.remote = remote, .file = path, .name = {}, .time = {}, .channels = {}};
   if (entry.contains("columns")) {
     for (auto column : entry.at("columns").get<std::vector<std::string>>()) {
       if (const auto colon = column.rfind(':'); colon != std::string::npos) column[colon] = '=';
       options.channels.push_back(column);
     }
   }
-  for (const auto& [key, option] :
-       {std::pair{"sensors", &options.sensors}, {"parameters", &options.parameters}})
-    if (entry.contains(key)) *option = entry.at(key).dump();
+  if (entry.contains("sensors")) options.sensors = entry.at("sensors").dump();
+  if (entry.contains("parameters")) options.parameters = entry.at("parameters").dump();
+  return options;
+}
+
+/// The same in a running service.
+std::string store_there(RemoteService& service, const RemoteOptions& remote, const MeasuredFile& file,
+                        const ordered_json& entry) {
+  const MeasureOptions options = make_measure_options(remote, file.path, entry);
   const auto id = store_measurement(service, options, file.key);
   try {
     static_cast<void>(service.find(Kind::kMeasurement, id));
