@@ -15,6 +15,7 @@
 #include <cstring>
 #include <iterator>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -51,6 +52,24 @@ std::string peer_of(const sockaddr_storage& address) {
   }
   std::memcpy(bytes.data(), &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, 8);
   return {bytes.data(), 8};
+}
+
+/// @param source  as add_to_epoll() has it
+bool has_event_of(std::span<const epoll_event> events, const void* source) {
+  return std::ranges::any_of(events, [&](const epoll_event& event) { return event.data.ptr == source; });
+}
+
+/// Appends bytes of a head to those that came before. True if the head is complete.
+bool append_to_head(std::string& received, std::string_view bytes) {
+  // The empty line may straddle two reads.
+  const std::size_t searched =
+      received.size() < kEndOfHead.size() ? 0 : received.size() - kEndOfHead.size() + 1;
+  received.append(bytes);
+  // Line ends before the request line are skipped (RFC 9112, section 2.2).
+  if (searched == 0) {
+    while (received.starts_with("\r\n")) received.erase(0, 2);
+  }
+  return received.find(kEndOfHead, searched) != std::string::npos;
 }
 
 }  // namespace
@@ -104,13 +123,7 @@ bool ConnectionAcceptor::run(int listening) {
     good = serve_events(listening);
     close_timed_out();
   }
-  {
-    const std::lock_guard lock(mutex_);
-    running_ = false;
-  }
-  watch_lingering();
-  for (std::list<Watched>* const list : {&pending_, &lingering_})
-    while (!list->empty()) close(list->begin());
+  close_all();
   return good;
 }
 
@@ -119,38 +132,41 @@ bool ConnectionAcceptor::serve_events(int listening) {
   const int ready =
       ::epoll_wait(epoll_fd_, events.data(), static_cast<int>(events.size()), poll_timeout_ms());
   if (ready < 0) return errno == EINTR;
-  bool new_connection = false;
-  bool woken = false;
-  for (int i = 0; i < ready; ++i) {
-    void* const source = events[static_cast<std::size_t>(i)].data.ptr;
-    if (source == nullptr) {
-      new_connection = true;
-    } else if (source == this) {
-      woken = true;
-    } else {
-      Watched& watched = *static_cast<Watched*>(source);
-      if (watched.lingering ? discard_some(watched.connection) : read_some(watched.connection))
-        close(watched.self);
-    }
+  const auto happened = std::span<const epoll_event>(events).first(static_cast<std::size_t>(ready));
+  for (const epoll_event& event : happened) {
+    void* const source = event.data.ptr;
+    if (source != nullptr && source != this) serve_connection(*static_cast<Watched*>(source));
   }
   // Last, since both may close one of the connections that have events.
-  if (woken) watch_lingering();
-  return !new_connection || accept_next(listening);
+  if (has_event_of(happened, this)) watch_lingering();
+  return !has_event_of(happened, nullptr) || accept_next(listening);
+}
+
+void ConnectionAcceptor::serve_connection(Watched& watched) {
+  if (watched.lingering ? discard_some(watched.connection) : read_some(watched.connection))
+    close(watched.self);
 }
 
 bool ConnectionAcceptor::accept_next(int listening) {
   sockaddr_storage address{};
   socklen_t size = sizeof address;
   const int socket = ::accept4(listening, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC);
-  if (socket < 0) {
-    if (is_final(errno)) return false;
-    if (errno == EINTR || errno == ECONNABORTED || errno == EAGAIN) return true;
-    // No descriptors or no memory: the oldest connection is closed to free some, first one that is answered.
-    if (!lingering_.empty()) close(lingering_.begin());
-    else if (!pending_.empty()) close(pending_.begin());
-    else std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return true;
-  }
+  if (socket < 0) return recover_from(errno);
+  take_in(socket, address);
+  return true;
+}
+
+bool ConnectionAcceptor::recover_from(int accept_error) {
+  if (is_final(accept_error)) return false;
+  if (accept_error == EINTR || accept_error == ECONNABORTED || accept_error == EAGAIN) return true;
+  // No descriptors or no memory: the oldest connection is closed to free some, first one that is answered.
+  if (!lingering_.empty()) close(lingering_.begin());
+  else if (!pending_.empty()) close(pending_.begin());
+  else std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return true;
+}
+
+void ConnectionAcceptor::take_in(int socket, const sockaddr_storage& address) {
   Place place;
   try {
     std::string peer = peer_of(address);
@@ -158,11 +174,10 @@ bool ConnectionAcceptor::accept_next(int listening) {
     place = add(pending_, {.socket = socket, .received = {}, .peer = std::move(peer)});
   } catch (const std::bad_alloc&) {
     ::close(socket);
-    return true;
+    return;
   }
   // Most clients have sent their head by now.
   if (read_some(place->connection) || !add_to_epoll(epoll_fd_, socket, &*place)) close(place);
-  return true;
 }
 
 /// Closes the oldest connection of the peer that has most of them; of equals, that of the new one.
@@ -191,25 +206,21 @@ bool ConnectionAcceptor::read_some(PendingConnection& connection) {
   if (got == 0) return true;  // closed, without a whole head
   try {
     std::string& received = connection.received;
-    // The empty line may straddle two reads.
-    const std::size_t searched =
-        received.size() < kEndOfHead.size() ? 0 : received.size() - kEndOfHead.size() + 1;
-    received.append(bytes.data(), static_cast<std::size_t>(got));
-    // Line ends before the request line are skipped (RFC 9112, section 2.2).
-    if (searched == 0) {
-      while (received.starts_with("\r\n")) received.erase(0, 2);
-    }
-    const bool complete = received.find(kEndOfHead, searched) != std::string::npos;
+    const bool complete = append_to_head(received, {bytes.data(), static_cast<std::size_t>(got)});
     if (!complete && received.size() <= limits_.head_bytes) return false;
   } catch (const std::bad_alloc&) {
     return true;
   }
+  hand_over(connection);
+  return true;
+}
+
+void ConnectionAcceptor::hand_over(PendingConnection& connection) {
   ::epoll_ctl(epoll_fd_, EPOLL_CTL_DEL, connection.socket, nullptr);
   on_head_({.socket = std::exchange(connection.socket, -1),
             .received = std::move(connection.received),
             .accepted = connection.accepted,
             .peer = connection.peer});
-  return true;
 }
 
 bool ConnectionAcceptor::discard_some(const PendingConnection& connection) const {
@@ -218,15 +229,15 @@ bool ConnectionAcceptor::discard_some(const PendingConnection& connection) const
   return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
 }
 
-void ConnectionAcceptor::watch_lingering() {
+std::vector<int> ConnectionAcceptor::take_sockets_to_linger() {
   std::uint64_t wakeups = 0;
   static_cast<void>(!::read(wakeup_fd_, &wakeups, sizeof wakeups));
-  std::vector<int> sockets;
-  {
-    const std::lock_guard lock(mutex_);
-    sockets.swap(to_linger_);
-  }
-  for (const int socket : sockets) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(to_linger_, {});
+}
+
+void ConnectionAcceptor::watch_lingering() {
+  for (const int socket : take_sockets_to_linger()) {
     if (lingering_.size() >= limits_.max_lingering) close(lingering_.begin());
     try {
       const Place place = add(lingering_, {.socket = socket, .received = {}});
@@ -263,6 +274,16 @@ void ConnectionAcceptor::close_timed_out() {
   }
   while (!lingering_.empty() && lingering_.front().connection.accepted + limits_.linger_time <= now)
     close(lingering_.begin());
+}
+
+void ConnectionAcceptor::close_all() {
+  {
+    const std::lock_guard lock(mutex_);
+    running_ = false;
+  }
+  watch_lingering();
+  for (std::list<Watched>* const list : {&pending_, &lingering_})
+    while (!list->empty()) close(list->begin());
 }
 
 void ConnectionAcceptor::close(Place place) {

@@ -13,6 +13,8 @@
 
 #include "server/http/pending_connection.h"
 
+struct sockaddr_storage;
+
 namespace server {
 
 /// Accepts connections, keeps each until the head of its request is complete, and closes each once its client
@@ -66,13 +68,21 @@ class ConnectionAcceptor {
 
   /// Waits for events and handles them. False if accepting has failed for good.
   bool serve_events(int listening);
+  void serve_connection(Watched& watched);
   bool accept_next(int listening);
+  /// Makes room where accepting has failed for want of it. False if it has failed for good.
+  bool recover_from(int accept_error);
+  void take_in(int socket, const sockaddr_storage& address);
   /// True if the acceptor has no more to do with the connection.
   bool read_some(PendingConnection& connection);
   bool discard_some(const PendingConnection& connection) const;
+  void hand_over(PendingConnection& connection);
+  [[nodiscard]] std::vector<int> take_sockets_to_linger();
   void watch_lingering();
   void stop_accepting(int listening);
   void close_timed_out();
+  /// From now on no socket is taken over to linger.
+  void close_all();
   void make_room(const std::string& peer);
   Place add(std::list<Watched>& to, PendingConnection connection);
   void close(Place connection);

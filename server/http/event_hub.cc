@@ -73,18 +73,22 @@ void EventHub::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     changed_.wait(lock, stop, [this] { return !streams_.empty(); });
-    // Other threads only append streams; only this thread removes them.
-    for (auto stream = streams_.begin(); stream != streams_.end() && !stop.stop_requested();) {
-      lock.unlock();
-      const bool goes_on = serve(*stream);
-      if (!goes_on) ::close(stream->socket);
-      lock.lock();
-      stream = goes_on ? std::next(stream) : streams_.erase(stream);
-    }
+    serve_streams(lock, stop);
     changed_.wait_for(lock, stop, kPollInterval, [] { return false; });
   }
   for (const Stream& stream : streams_) ::close(stream.socket);
   streams_.clear();
+}
+
+void EventHub::serve_streams(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  // Other threads only append streams; only this thread removes them.
+  for (auto stream = streams_.begin(); stream != streams_.end() && !stop.stop_requested();) {
+    lock.unlock();
+    const bool goes_on = serve(*stream);
+    if (!goes_on) ::close(stream->socket);
+    lock.lock();
+    stream = goes_on ? std::next(stream) : streams_.erase(stream);
+  }
 }
 
 bool EventHub::serve(Stream& stream) {

@@ -48,6 +48,8 @@ class EventHub {
   };
 
   void work(const std::stop_token& stop);
+  /// Serves each stream once, without the lock.
+  void serve_streams(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   /// False when the connection is to be closed.
   static bool serve(Stream& stream);
 

@@ -8,17 +8,7 @@ namespace server {
 
 std::optional<PendingConnection> FairQueue::add(PendingConnection& connection) {
   auto line = std::ranges::find(lines_, connection.peer, &Line::peer);
-  if (size_ >= most_) {
-    const auto longest = std::ranges::max_element(
-        lines_, {}, [](const Line& each) { return each.connections.size(); });
-    const std::size_t own = line == lines_.end() ? 0 : line->connections.size();
-    if (longest == lines_.end() || own + 1 >= longest->connections.size()) return std::move(connection);
-    std::optional<PendingConnection> displaced = std::move(longest->connections.back());
-    longest->connections.pop_back();  // not its last: it had two more than this peer
-    --size_;
-    static_cast<void>(add(connection));
-    return displaced;
-  }
+  if (size_ >= most_) return displace_by(connection, line);
   if (line == lines_.end()) {
     lines_.push_back({.peer = connection.peer, .connections = {}});
     line = std::prev(lines_.end());
@@ -31,6 +21,18 @@ std::optional<PendingConnection> FairQueue::add(PendingConnection& connection) {
   }
   ++size_;
   return std::nullopt;
+}
+
+std::optional<PendingConnection> FairQueue::displace_by(PendingConnection& connection, Place line) {
+  const auto longest = std::ranges::max_element(
+      lines_, {}, [](const Line& each) { return each.connections.size(); });
+  const std::size_t own = line == lines_.end() ? 0 : line->connections.size();
+  if (longest == lines_.end() || own + 1 >= longest->connections.size()) return std::move(connection);
+  std::optional<PendingConnection> displaced = std::move(longest->connections.back());
+  longest->connections.pop_back();  // not its last: it had two more than this peer
+  --size_;
+  static_cast<void>(add(connection));
+  return displaced;
 }
 
 std::optional<PendingConnection> FairQueue::take() {

@@ -33,6 +33,12 @@ class FairQueue {
     std::deque<PendingConnection> connections;  ///< oldest first; never empty
   };
 
+  using Place = std::list<Line>::iterator;
+
+  /// Adds a connection where the queue is full.
+  /// @param line  of its peer; the end if there is none
+  std::optional<PendingConnection> displace_by(PendingConnection& connection, Place line);
+
   const std::size_t most_;
   std::size_t size_ = 0;
   std::list<Line> lines_;  ///< whose turn it is first

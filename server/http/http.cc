@@ -78,8 +78,7 @@ void set_events(httplib::Response& to, const std::string& content_type, std::sha
   GuardedServer::stream_events(std::move(events));
 }
 
-void copy_to(httplib::Response& to, Response from, const std::string& version = "HTTP/1.1") {
-  to.status = from.status;
+void set_body(httplib::Response& to, Response& from, const std::string& version) {
   to.body = std::move(from.body);
   if (from.file) {
     set_file(to, from.content_type, std::move(from.file));
@@ -90,6 +89,11 @@ void copy_to(httplib::Response& to, Response from, const std::string& version = 
   } else if (!from.content_type.empty()) {
     to.set_header("Content-Type", from.content_type);
   }
+}
+
+void copy_to(httplib::Response& to, Response from, const std::string& version = "HTTP/1.1") {
+  to.status = from.status;
+  set_body(to, from, version);
   for (const auto& [name, value] : from.headers) {
     if (name == "Accept-Ranges") to.set_header(kHasRanges, value);
     if (kSecurityHeaders.contains(name))
@@ -159,7 +163,17 @@ class HttpServer::Impl {
         access_check_(options.token),
         guard(http_limits,
               [this](int status, const std::string& detail) { return make_refusal(status, detail); }) {
-    guard.set_default_headers(kSecurityHeaders);
+    set_route_handlers();
+    set_answer_handlers();
+  }
+
+  HttpOptions options;
+  HttpLimits limits;
+
+ private:
+  using Handled = httplib::Server::HandlerResponse;
+
+  void set_route_handlers() {
     guard.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       return route_without_body(request, response);
     });
@@ -169,6 +183,11 @@ class HttpServer::Impl {
                                   const httplib::ContentReader&) { route_with_body(request, response); };
     guard.Post(R"([\s\S]*)", with_body);
     guard.Patch(R"([\s\S]*)", with_body);
+  }
+
+  /// What is done to answers that the library makes, and to all.
+  void set_answer_handlers() {
+    guard.set_default_headers(kSecurityHeaders);
     guard.set_error_handler(
         [](const httplib::Request&, httplib::Response& response) { complete_error(response); });
     guard.set_exception_handler(
@@ -181,12 +200,6 @@ class HttpServer::Impl {
       add_cors_headers(request, response);
     });
   }
-
-  HttpOptions options;
-  HttpLimits limits;
-
- private:
-  using Handled = httplib::Server::HandlerResponse;
 
   Response make_refusal(int status, const std::string& detail) {
     Response response = status == 503 ? make_retry_later(status, detail) : make_problem(status, detail);
@@ -307,25 +320,33 @@ class HttpServer::Impl {
     return forwarded && !forwarded->empty() ? *forwarded : options.base_path;
   }
 
-  void answer(const httplib::Request& from, std::string body, httplib::Response& to) {
-    const auto start = std::chrono::steady_clock::now();
+  static void copy_headers_to(Request& to, const httplib::Request& from) {
+    to.accept = from.get_header_value("Accept");
+    to.content_type = from.get_header_value("Content-Type");
+    to.accept_encoding = from.get_header_value(kAcceptEncoding);
+    to.if_none_match = from.get_header_value("If-None-Match");
+    to.prefer = from.get_header_value("Prefer");
+    to.last_event_id = from.get_header_value("Last-Event-ID");
+    to.range = from.get_header_value(kRange);
+    to.if_range = from.get_header_value("If-Range");
+    if (from.has_header("Idempotency-Key")) to.idempotency_key = from.get_header_value("Idempotency-Key");
+  }
+
+  Request make_request(const httplib::Request& from, std::string body) {
     Request request;
     request.method = from.method;
     request.path = own_path(from);
     request.base_path = base_path_of(from);
     request.query.assign(from.params.begin(), from.params.end());
-    request.accept = from.get_header_value("Accept");
-    request.content_type = from.get_header_value("Content-Type");
-    request.accept_encoding = from.get_header_value(kAcceptEncoding);
-    request.if_none_match = from.get_header_value("If-None-Match");
-    request.prefer = from.get_header_value("Prefer");
-    request.last_event_id = from.get_header_value("Last-Event-ID");
-    request.range = from.get_header_value(kRange);
-    request.if_range = from.get_header_value("If-Range");
-    if (from.has_header("Idempotency-Key"))
-      request.idempotency_key = from.get_header_value("Idempotency-Key");
+    copy_headers_to(request, from);
     request.body = std::move(body);
     request.id = request_ids_.next();
+    return request;
+  }
+
+  void answer(const httplib::Request& from, std::string body, httplib::Response& to) {
+    const auto start = std::chrono::steady_clock::now();
+    const Request request = make_request(from, std::move(body));
     // Without the slash a browser would take the addresses of the page for those beside it.
     const bool slash_is_missing = !options.base_path.empty() && from.path == options.base_path;
     Response response = slash_is_missing ? make_redirect(from.path.substr(from.path.rfind('/') + 1) + "/")

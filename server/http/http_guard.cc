@@ -138,13 +138,7 @@ void GuardedServer::stop_accepting() { acceptor_.stop(); }
 void GuardedServer::queue_connection(PendingConnection connection) noexcept {
   std::optional<PendingConnection> displaced;
   try {
-    if (may_be_probe(connection.received)) {
-      displaced = probe_pool_.add(connection);
-    } else {
-      ++queued_;
-      displaced = pool_.add(connection);
-      if (displaced) --queued_;
-    }
+    displaced = add_to_queue(connection);
   } catch (const std::bad_alloc&) {
     if (!may_be_probe(connection.received)) --queued_;
     log_error("a connection is closed: no memory");
@@ -152,6 +146,14 @@ void GuardedServer::queue_connection(PendingConnection connection) noexcept {
     return;
   }
   if (displaced) refuse_without_worker(std::move(*displaced), busy_);
+}
+
+std::optional<PendingConnection> GuardedServer::add_to_queue(PendingConnection& connection) {
+  if (may_be_probe(connection.received)) return probe_pool_.add(connection);
+  ++queued_;
+  std::optional<PendingConnection> displaced = pool_.add(connection);
+  if (displaced) --queued_;
+  return displaced;
 }
 
 void GuardedServer::refuse_without_worker(PendingConnection connection, const Response& refusal) noexcept {
@@ -198,29 +200,32 @@ std::ptrdiff_t GuardedServer::read_body(char* to, std::size_t size) {
   return stream_of_this_connection->read(to, size);
 }
 
+bool GuardedServer::read_head_or_refuse(HttpStream& stream) {
+  const HttpStream::Head read = stream.read_head();
+  if (read == HttpStream::Head::kTooSlow) refuse(stream, 408, "the head of the request did not come in time");
+  if (read == HttpStream::Head::kTooLarge)
+    refuse(stream, 431, "the head is larger than " + std::to_string(limits_.head_bytes) + " bytes");
+  return read == HttpStream::Head::kComplete;
+}
+
 void GuardedServer::serve(HttpStream& stream) {
-  switch (stream.read_head()) {
-    case HttpStream::Head::kClosed:
-      return;
-    case HttpStream::Head::kTooSlow:
-      return refuse(stream, 408, "the head of the request did not come in time");
-    case HttpStream::Head::kTooLarge:
-      return refuse(stream, 431, "the head is larger than " + std::to_string(limits_.head_bytes) + " bytes");
-    case HttpStream::Head::kComplete:
-      break;
-  }
+  if (!read_head_or_refuse(stream)) return;
   const std::size_t body_bytes = limits_.body_bytes_of(raw_path_of(stream.head()));
   if (const auto fault = find_fault_in_head(stream.head(), body_bytes)) {
     return refuse(stream, fault->status, fault->detail);
   }
-  // Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or
-  // refuse and in how they parse a query. The library therefore parses method and version alone; fill() sets
-  // the rest.
   RequestHead head = read_head(stream.head());
   stream.allow_body(body_bytes);
-  // Nor does the library say "100 Continue": it would before it has asked whether the client may.
+  // The library is not to say "100 Continue": it would before it has asked whether the client may.
   if (const auto expected = head.headers.extract("expect"))
     stream.expect_continue(::strcasecmp(expected.mapped().c_str(), "100-continue") == 0);
+  serve_with_library(stream, std::move(head));
+}
+
+/// Versions of the library decode "%41" in the values of headers, and differ in which headers they drop or
+/// refuse and in how they parse a query. The library therefore parses method and version alone; fill() sets
+/// the rest.
+void GuardedServer::serve_with_library(HttpStream& stream, RequestHead head) {
   stream.replace_head(head.request_line + "\r\n\r\n");
   stream_of_this_connection = &stream;
   process_with_library(*this, stream, [&head](httplib::Request& request) { fill(request, std::move(head)); });

@@ -4,12 +4,14 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/http/connection_acceptor.h"
 #include "server/http/event_hub.h"
 #include "server/http/http_limits.h"
 #include "server/http/http_stream.h"
+#include "server/http/request_head.h"
 #include "server/http/worker_pool.h"
 #include "server/messages/message.h"
 
@@ -65,12 +67,17 @@ class GuardedServer final : public httplib::Server {
 
  private:
   void queue_connection(PendingConnection connection) noexcept;
+  /// Adds a connection to the queue of its threads. @returns the one that has no place any more
+  std::optional<PendingConnection> add_to_queue(PendingConnection& connection);
   /// Answers on the thread that accepts: as much as the socket takes at once, which is all of it.
   void refuse_without_worker(PendingConnection connection, const Response& refusal) noexcept;
   void serve_and_close(PendingConnection connection) noexcept;
   /// Serves the request; an exception is logged, and answered if nothing has been sent.
   void serve_guarded(HttpStream& stream) noexcept;
   void serve(HttpStream& stream);
+  /// Reads the head of the request. False if there is none to serve: then its client has been refused.
+  bool read_head_or_refuse(HttpStream& stream);
+  void serve_with_library(HttpStream& stream, RequestHead head);
   template <typename Self, typename Fill>
   static void process_with_library(Self& self, HttpStream& stream, const Fill& fill_request);
   void refuse(HttpStream& stream, int status, const std::string& detail);

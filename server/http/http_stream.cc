@@ -60,21 +60,31 @@ HttpStream::Head HttpStream::read_head() {
   for (std::size_t searched = 0;;) {
     const auto end = buffer_.find("\r\n\r\n", searched);
     if (end != std::string::npos && end + 4 <= limits_.head_bytes) {
-      head_size_ = end + 4;
-      read_deadline_ = Clock::now() + limits_.body_time;
-      crowded_deadline_ = Clock::now() + limits_.crowded_time;
+      complete_head(end + 4);
       return Head::kComplete;
     }
     if (buffer_.size() > limits_.head_bytes) return Head::kTooLarge;
     const std::size_t old_size = buffer_.size();
-    buffer_.resize(old_size + kReadBytes);
-    const ssize_t got = receive(buffer_.data() + old_size, kReadBytes, read_deadline_);
-    buffer_.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    const ssize_t got = receive_more();
     if (got == 0 || (got < 0 && buffer_.empty())) return Head::kClosed;
     if (got < 0) return Head::kTooSlow;
     // The empty line may straddle two reads.
     searched = old_size < 3 ? 0 : old_size - 3;
   }
+}
+
+void HttpStream::complete_head(std::size_t size) {
+  head_size_ = size;
+  read_deadline_ = Clock::now() + limits_.body_time;
+  crowded_deadline_ = Clock::now() + limits_.crowded_time;
+}
+
+ssize_t HttpStream::receive_more() {
+  const std::size_t old_size = buffer_.size();
+  buffer_.resize(old_size + kReadBytes);
+  const ssize_t got = receive(buffer_.data() + old_size, kReadBytes, read_deadline_);
+  buffer_.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return got;
 }
 
 void HttpStream::replace_head(const std::string& head) {
@@ -120,18 +130,19 @@ bool HttpStream::is_readable() const {
 
 bool HttpStream::is_writable() const { return wait_for(POLLOUT, write_deadline()); }
 
+ssize_t HttpStream::take_buffered(char* to, std::size_t size) {
+  const std::size_t n = std::min(size, buffer_.size() - consumed_);
+  std::memcpy(to, buffer_.data() + consumed_, n);
+  consumed_ += n;
+  return static_cast<ssize_t>(n);
+}
+
 ssize_t HttpStream::read(char* to, std::size_t size) {
-  if (consumed_ < buffer_.size()) {
-    const std::size_t n = std::min(size, buffer_.size() - consumed_);
-    std::memcpy(to, buffer_.data() + consumed_, n);
-    consumed_ += n;
-    return static_cast<ssize_t>(n);
-  }
+  if (consumed_ < buffer_.size()) return take_buffered(to, size);
   if (raw_body_bytes_ > raw_body_limit(body_limit_)) return -1;
   // httplib reads chunk sizes a byte at a time: one system call each would be a burden.
-  buffer_.resize(kReadBytes);
-  const ssize_t got = receive(buffer_.data(), buffer_.size(), read_deadline_);
-  buffer_.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  buffer_.clear();
+  const ssize_t got = receive_more();
   consumed_ = 0;
   head_size_ = 0;
   raw_body_bytes_ += buffer_.size();

@@ -69,6 +69,12 @@ class HttpStream final : public httplib::Stream {
   /// End of the wait for a client that takes nothing: by stall_time or by response_time, whichever ends
   /// first.
   [[nodiscard]] Clock::time_point write_deadline() const;
+  /// Notes where the head ends, and begins the time for the body.
+  void complete_head(std::size_t size);
+  /// Appends what the client has sent to the buffer. @returns as receive() does
+  ssize_t receive_more();
+  /// Hands out bytes that have come with the head or with others.
+  ssize_t take_buffered(char* to, std::size_t size);
   /// Like recv(), after waiting. 0: closed by the client; negative: deadline or error.
   ssize_t receive(char* to, std::size_t size, Clock::time_point deadline) const;
 

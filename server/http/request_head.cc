@@ -42,6 +42,19 @@ struct Framing {
   std::string encoding;
 };
 
+/// @param name  of a header, in lower case
+void note_framing(const std::string& name, std::string_view value, Framing& framing) {
+  if (name == "host") ++framing.host_count;
+  if (name == "content-length") {
+    ++framing.length_count;
+    framing.length = value;
+  }
+  if (name == "transfer-encoding") {
+    ++framing.encoding_count;
+    framing.encoding = lower(value);
+  }
+}
+
 std::optional<Refusal> read_header_line(std::string_view line, Framing& framing) {
   const auto colon = line.find(':');
   if (colon == std::string_view::npos || colon == 0) return Refusal{400, "a header line has no name"};
@@ -50,18 +63,10 @@ std::optional<Refusal> read_header_line(std::string_view line, Framing& framing)
   }
   const std::string name = lower(line.substr(0, colon));
   const std::string_view value = trimmed(line.substr(colon + 1));
-  if (name == "host") ++framing.host_count;
-  if (name == "content-length") {
-    ++framing.length_count;
-    framing.length = value;
-  }
   // A proxy may drop headers without a value: the request would come as one without a key, and be stored
   // twice.
   if (name == "idempotency-key" && value.empty()) return Refusal{400, "Idempotency-Key has no value"};
-  if (name == "transfer-encoding") {
-    ++framing.encoding_count;
-    framing.encoding = lower(value);
-  }
+  note_framing(name, value, framing);
   return std::nullopt;
 }
 
@@ -149,25 +154,49 @@ std::string query_text(std::string_view text) {
   return percent_decoded(result);
 }
 
+/// Keys and values of "key=value&key=value"; the value is empty where there is no "=".
+decltype(RequestHead::query) read_query_pairs(std::string_view text) {
+  decltype(RequestHead::query) pairs;
+  while (!text.empty()) {
+    const std::string_view item = text.substr(0, text.find('&'));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    if (item.empty()) continue;
+    const auto equals = std::min(item.find('='), item.size());
+    const std::string_view value = item.substr(std::min(equals + 1, item.size()));
+    pairs.emplace_back(query_text(item.substr(0, equals)), query_text(value));
+  }
+  return pairs;
+}
+
 /// @returns the host in the target; empty if there is none
 std::string_view read_request_line(std::string_view line, RequestHead& result) {
   const auto start = line.find(' ') + 1;
   const std::string_view whole = line.substr(start, line.find(' ', start) - start);
   result.request_line.append(line.substr(0, start)).append("/").append(line.substr(start + whole.size()));
   const Target parts = split_target(whole);
-  std::string_view target = parts.rest.substr(0, parts.rest.find('#'));
+  const std::string_view target = parts.rest.substr(0, parts.rest.find('#'));
   const auto mark = std::min(target.find('?'), target.size());
   result.path = mark == 0 ? "/" : percent_decoded(target.substr(0, mark));
-  target.remove_prefix(std::min(mark + 1, target.size()));
-  while (!target.empty()) {
-    const std::string_view item = target.substr(0, target.find('&'));
-    target.remove_prefix(std::min(item.size() + 1, target.size()));
-    if (item.empty()) continue;
-    const auto equals = std::min(item.find('='), item.size());
-    const std::string_view value = item.substr(std::min(equals + 1, item.size()));
-    result.query.emplace_back(query_text(item.substr(0, equals)), query_text(value));
-  }
+  result.query = read_query_pairs(target.substr(std::min(mark + 1, target.size())));
   return parts.host;
+}
+
+/// @param first  whether it is the request line
+std::optional<Refusal> read_line_of_head(std::string_view line, bool first, Framing& framing) {
+  if (line.size() > kMaxLineBytes) {
+    return Refusal{first ? 414 : 431,
+                   "a line of the head is longer than " + std::to_string(kMaxLineBytes) + " bytes"};
+  }
+  if (!first) return read_header_line(line, framing);
+  framing.may_lack_host = line.ends_with(" HTTP/1.0");
+  return find_fault_in_request_line(line);
+}
+
+/// Takes the first line off a head, without its line end.
+std::string_view take_head_line(std::string_view& head) {
+  const std::string_view line = head.substr(0, head.find("\r\n"));
+  head.remove_prefix(line.size() + 2);
+  return line;
 }
 
 /// The name in a Host header: no port, no brackets, no dot at its end, in lower case. Empty where anything
@@ -206,13 +235,7 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
     head.remove_prefix(end + 2);
     if (has_control_character(line)) return Refusal{400, "the head holds a control character"};
     if (line.empty()) break;
-    if (line.size() > kMaxLineBytes) {
-      return Refusal{first ? 414 : 431,
-                     "a line of the head is longer than " + std::to_string(kMaxLineBytes) + " bytes"};
-    }
-    if (first) framing.may_lack_host = line.ends_with(" HTTP/1.0");
-    auto fault = first ? find_fault_in_request_line(line) : read_header_line(line, framing);
-    if (fault) return fault;
+    if (auto fault = read_line_of_head(line, first, framing)) return fault;
     first = false;
   }
   return find_fault_in_framing(framing, body_bytes);
@@ -220,13 +243,8 @@ std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t bod
 
 RequestHead read_head(std::string_view head) {
   RequestHead result;
-  const auto take_line = [&head] {
-    const std::string_view line = head.substr(0, head.find("\r\n"));
-    head.remove_prefix(line.size() + 2);
-    return line;
-  };
-  const std::string_view host = read_request_line(take_line(), result);
-  for (std::string_view line = take_line(); !line.empty(); line = take_line()) {
+  const std::string_view host = read_request_line(take_head_line(head), result);
+  for (std::string_view line = take_head_line(head); !line.empty(); line = take_head_line(head)) {
     const auto colon = line.find(':');
     const std::string_view value = trimmed(line.substr(colon + 1));
     const auto [header, is_first] = result.headers.try_emplace(lower(line.substr(0, colon)), value);
@@ -300,8 +318,23 @@ std::string normal_origin(std::string_view origin) {
   return normal;
 }
 
-std::optional<std::string> find_base_path(std::string_view text) {
+/// Whether no segment of a path is empty, "." or "..", or has a sign that must be encoded.
+static bool has_valid_segments(std::string_view path) {
   constexpr std::string_view kSigns = "-._~!$&'()*+;=:@%";
+  while (!path.empty()) {
+    path.remove_prefix(1);
+    const std::string_view segment = path.substr(0, path.find('/'));
+    path.remove_prefix(segment.size());
+    const bool good = std::ranges::all_of(segment, [&](unsigned char c) {
+      return (c < 0x80 && std::isalnum(c) != 0) ||
+             kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (!good || segment.empty() || segment == "." || segment == "..") return false;
+  }
+  return true;
+}
+
+std::optional<std::string> find_base_path(std::string_view text) {
   std::string path;
   while (!text.empty()) {
     std::string_view part = trimmed(text.substr(0, text.find(',')));
@@ -310,17 +343,7 @@ std::optional<std::string> find_base_path(std::string_view text) {
     if (!part.empty() && !part.starts_with('/')) return std::nullopt;
     path += part;
   }
-  if (path.size() > kMaxPathBytes) return std::nullopt;
-  for (std::string_view rest = path; !rest.empty();) {
-    rest.remove_prefix(1);
-    const std::string_view segment = rest.substr(0, rest.find('/'));
-    rest.remove_prefix(segment.size());
-    const bool good = std::ranges::all_of(segment, [&](unsigned char c) {
-      return (c < 0x80 && std::isalnum(c) != 0) ||
-             kSigns.find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    if (!good || segment.empty() || segment == "." || segment == "..") return std::nullopt;
-  }
+  if (path.size() > kMaxPathBytes || !has_valid_segments(path)) return std::nullopt;
   return path;
 }
 
