@@ -43,6 +43,21 @@ std::optional<ByteRange> read_range(std::string_view text, std::size_t size) {
   return ByteRange{std::min(*first, size), std::min(last.value_or(end), end)};
 }
 
+Response make_range_problem(std::size_t size) {
+  Response refusal = make_problem(416, "the file has " + std::to_string(size) + " bytes");
+  refusal.headers.emplace_back("Content-Range", "bytes */" + std::to_string(size));
+  return refusal;
+}
+
+/// Makes the answer with a whole file that with a part of it.
+void cut_to_range(Response& response, const ByteRange& range) {
+  response.status = 206;
+  response.headers.emplace_back("Content-Range", "bytes " + std::to_string(range.first) + "-" +
+                                                     std::to_string(range.last) + "/" +
+                                                     std::to_string(response.file->size()));
+  response.file->cut(range.first, range.last + 1);
+}
+
 }  // namespace
 
 Response answer_with_file(const Request& request, Response response, std::shared_ptr<FileBody> file,
@@ -55,16 +70,8 @@ Response answer_with_file(const Request& request, Response response, std::shared
     return response;
   const auto range = read_range(request.range, size);
   if (!range) return response;
-  if (range->first == size) {
-    Response refusal = make_problem(416, "the file has " + std::to_string(size) + " bytes");
-    refusal.headers.emplace_back("Content-Range", "bytes */" + std::to_string(size));
-    return refusal;
-  }
-  response.status = 206;
-  response.headers.emplace_back("Content-Range", "bytes " + std::to_string(range->first) + "-" +
-                                                     std::to_string(range->last) + "/" +
-                                                     std::to_string(size));
-  response.file->cut(range->first, range->last + 1);
+  if (range->first == size) return make_range_problem(size);
+  cut_to_range(response, *range);
   return response;
 }
 

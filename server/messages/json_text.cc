@@ -64,25 +64,26 @@ class Bounds : public nlohmann::json_sax<Json> {
   std::vector<std::set<std::string>> open_;  ///< the keys met so far, of every object or array that is open
 };
 
+/// Length of the word at the beginning of a text; 0 if there is none of them.
+std::size_t measure_non_finite_word(std::string_view text) {
+  const auto word =
+      std::ranges::find_if(kNonFiniteWords, [&](std::string_view w) { return text.starts_with(w); });
+  return word == kNonFiniteWords.end() ? 0 : word->size();
+}
+
 /// The text with the words NaN and Infinity, which Python and others write for numbers that JSON cannot hold,
 /// as null: then the fault is reported where it stands, as any other value of a wrong type.
 std::string without_non_finite_words(std::string_view text) {
   std::string result;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (in_string && text[i] == '\\' && i + 1 < text.size()) {
-      result += text[i++];
-    } else if (text[i] == '"') {
-      in_string = !in_string;
-    } else if (!in_string) {
-      const auto word = std::ranges::find_if(
-          kNonFiniteWords, [&](std::string_view w) { return text.substr(i).starts_with(w); });
-      if (word != kNonFiniteWords.end()) {
-        result += "null";
-        i += word->size() - 1;
-        continue;
-      }
+    if (const auto length = in_string ? 0 : measure_non_finite_word(text.substr(i)); length > 0) {
+      result += "null";
+      i += length - 1;
+      continue;
     }
+    if (text[i] == '"') in_string = !in_string;
+    else if (in_string && text[i] == '\\' && i + 1 < text.size()) result += text[i++];
     result += text[i];
   }
   return result;

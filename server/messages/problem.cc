@@ -10,6 +10,17 @@
 
 namespace server {
 
+namespace {
+
+constexpr std::size_t kMostFaults = 100;  // a request of 8 MiB may have a million of them
+
+/// What is said of the faults that an answer has no room for.
+std::string describe_left_out(std::size_t faults) {
+  return faults > kMostFaults ? "; " + std::to_string(faults - kMostFaults) + " more are left out here" : "";
+}
+
+}  // namespace
+
 std::string_view status_phrase(int status) {
   switch (status) {
     case 200: return "OK";
@@ -41,14 +52,10 @@ std::string_view status_phrase(int status) {
 }
 
 Response make_problem(int status, const std::string& detail, const std::vector<jobs::Fault>& faults) {
-  constexpr std::size_t kMostFaults = 100;  // a request of 8 MiB may have a million of them
-  const std::string more = faults.size() > kMostFaults ? "; " + std::to_string(faults.size() - kMostFaults) +
-                                                             " more are left out here"
-                                                       : "";
   nlohmann::ordered_json problem = {{"type", "about:blank"},
                                     {"title", status_phrase(status)},
                                     {"status", status},
-                                    {"detail", detail + more}};
+                                    {"detail", detail + describe_left_out(faults.size())}};
   for (std::size_t i = 0; i < std::min(faults.size(), kMostFaults); ++i) {
     problem["errors"].push_back({{"pointer", faults[i].pointer}, {"detail", faults[i].detail}});
   }

@@ -46,6 +46,15 @@ bool is_control(std::uint32_t value) {
       kRanges, [&](const auto& range) { return value >= range.first && value <= range.second; });
 }
 
+/// "\x1b" of a byte that is ASCII or no UTF-8, "\u{202e}" of another character.
+std::string escape_code_point(const CodePoint& point, char first) {
+  std::array<char, 16> escaped{};
+  const bool one_byte = point.bytes <= 1;
+  const std::uint32_t value = one_byte ? static_cast<unsigned char>(first) : point.value;
+  std::snprintf(escaped.data(), escaped.size(), one_byte ? "\\x%02x" : "\\u{%04x}", value);
+  return escaped.data();
+}
+
 }  // namespace
 
 std::string terminal_text(std::string_view text, LineEnds line_ends) {
@@ -54,15 +63,8 @@ std::string terminal_text(std::string_view text, LineEnds line_ends) {
     const CodePoint point = first_code_point(text);
     const std::size_t bytes = std::max<std::size_t>(point.bytes, 1);
     const bool kept = line_ends == LineEnds::kKept && (text[0] == '\n' || text[0] == '\t');
-    if (point.bytes > 0 && (kept || !is_control(point.value))) {
-      shown += text.substr(0, bytes);
-    } else {
-      std::array<char, 16> escaped{};
-      const bool one_byte = bytes == 1;
-      const std::uint32_t value = one_byte ? static_cast<unsigned char>(text[0]) : point.value;
-      std::snprintf(escaped.data(), escaped.size(), one_byte ? "\\x%02x" : "\\u{%04x}", value);
-      shown += escaped.data();
-    }
+    const bool is_shown = point.bytes > 0 && (kept || !is_control(point.value));
+    shown += is_shown ? std::string(text.substr(0, bytes)) : escape_code_point(point, text[0]);
     text.remove_prefix(bytes);
   }
   return shown;
