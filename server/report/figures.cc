@@ -125,6 +125,17 @@ std::vector<std::size_t> spread_evenly(const std::vector<std::size_t>& items, st
   return chosen;
 }
 
+/// As many groups of each kind, evenly spread over its members and over the kinds.
+std::set<std::size_t> choose_of_each_kind(const std::map<std::size_t, std::vector<std::size_t>>& by_kind) {
+  std::vector<std::size_t> kinds;
+  for (const auto& [kind, members] : by_kind) kinds.push_back(kind);
+  kinds = spread_evenly(kinds, kMostCurves);
+  std::set<std::size_t> chosen;
+  for (const std::size_t kind : kinds)
+    for (const std::size_t g : spread_evenly(by_kind.at(kind), kMostCurves / kinds.size())) chosen.insert(g);
+  return chosen;
+}
+
 /// Indices of the groups that are drawn: as many of each kind, evenly spread, and that of the largest value.
 std::vector<std::size_t> choose_groups(const ReportView& view, const std::vector<jobs::RowGroup>& groups,
                                        const CurveLooks& looks) {
@@ -134,12 +145,7 @@ std::vector<std::size_t> choose_groups(const ReportView& view, const std::vector
     by_kind[looks.kind_of(groups[g])].push_back(g);
     if (largest_of(view, groups[g]) > largest_of(view, groups[largest])) largest = g;
   }
-  std::vector<std::size_t> kinds;
-  for (const auto& [kind, members] : by_kind) kinds.push_back(kind);
-  kinds = spread_evenly(kinds, kMostCurves);
-  std::set<std::size_t> chosen;
-  for (const std::size_t kind : kinds)
-    for (const std::size_t g : spread_evenly(by_kind.at(kind), kMostCurves / kinds.size())) chosen.insert(g);
+  std::set<std::size_t> chosen = choose_of_each_kind(by_kind);
   if (!chosen.contains(largest)) {
     const auto after = chosen.upper_bound(largest);
     if (chosen.size() >= kMostCurves) chosen.erase(after == chosen.end() ? std::prev(after) : after);

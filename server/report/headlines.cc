@@ -67,31 +67,50 @@ std::string percent(double part) {
   return text + " %";
 }
 
-std::string scatter_sentence(const ReportView& view) {
+/// How much replicates of the same setting differ.
+struct ReplicateScatter {
+  std::size_t settings = 0;  ///< that were run more than once
+  double widest = -1.0;      ///< largest difference of two values of a setting, over their mean
+  std::string setting{};     ///< where that is
+};
+
+/// Difference of the largest and the least value, over the mean.
+double calc_relative_range(const std::vector<double>& values) {
+  const auto statistics = jobs::calc_replicate_statistics(values);
+  return *statistics.mean != 0.0 ? (*statistics.max - *statistics.min) / std::abs(*statistics.mean) : 0.0;
+}
+
+std::vector<double> values_of_group(const ReportView& view, const jobs::RowGroup& group) {
+  std::vector<double> values;
+  for (const std::size_t r : group.rows)
+    if (const auto value = jobs::number_in(view.results.rows[r][view.metric_column]))
+      values.push_back(*value);
+  return values;
+}
+
+ReplicateScatter find_scatter(const ReportView& view) {
+  ReplicateScatter scatter;
+  if (std::ranges::find(view.results.columns, "replicate") == view.results.columns.end()) return scatter;
   std::vector<std::size_t> columns;
   for (const std::string& path : view.axes) columns.push_back(view.column(path));
-  const bool replicated = std::ranges::find(view.results.columns, "replicate") != view.results.columns.end();
-  std::size_t sets = 0;
-  double widest = -1.0;
-  std::string setting;
   for (const jobs::RowGroup& group : jobs::group_rows(view.results, columns)) {
-    std::vector<double> values;
-    for (const std::size_t r : group.rows)
-      if (const auto value = jobs::number_in(view.results.rows[r][view.metric_column]))
-        values.push_back(*value);
-    if (!replicated || values.size() < 2) continue;
-    ++sets;
-    const auto statistics = jobs::calc_replicate_statistics(values);
-    const double part =
-        *statistics.mean != 0.0 ? (*statistics.max - *statistics.min) / std::abs(*statistics.mean) : 0.0;
-    if (part <= widest) continue;
-    widest = part;
-    setting = view.setting_of(view.results.rows[group.rows.front()]);
+    const std::vector<double> values = values_of_group(view, group);
+    if (values.size() < 2) continue;
+    ++scatter.settings;
+    const double part = calc_relative_range(values);
+    if (part <= scatter.widest) continue;
+    scatter.widest = part;
+    scatter.setting = view.setting_of(view.results.rows[group.rows.front()]);
   }
-  if (sets == 0) return item("One run each: how much the values scatter is not known.");
+  return scatter;
+}
+
+std::string scatter_sentence(const ReportView& view) {
+  const auto& [settings, widest, setting] = find_scatter(view);
+  if (settings == 0) return item("One run each: how much the values scatter is not known.");
   return item("Replicates differ by at most <strong>" + percent(widest) + "</strong> of their mean" +
-              (setting.empty() ? "" : " (" + escape(setting) + ")") + "; " + std::to_string(sets) +
-              (sets == 1 ? " setting was" : " settings were") + " run more than once.");
+              (setting.empty() ? "" : " (" + escape(setting) + ")") + "; " + std::to_string(settings) +
+              (settings == 1 ? " setting was" : " settings were") + " run more than once.");
 }
 
 std::string failure_sentence(const ReportView& view, const FailureCounts& failures) {
@@ -104,6 +123,14 @@ std::string failure_sentence(const ReportView& view, const FailureCounts& failur
   if (failed == 0) return "";
   return item("<strong>" + std::to_string(failed) + "</strong> of " +
               std::to_string(view.results.rows.size()) + " jobs failed: " + reasons + ".");
+}
+
+std::vector<std::string> headings_of_largest(const ReportView& view, bool has_time) {
+  std::vector<std::string> headings{title_of(view.metric)};
+  if (has_time) headings.emplace_back("Time [s]");
+  for (const std::string& path : view.axes) headings.push_back(title_of(path));
+  headings.emplace_back("Job");
+  return headings;
 }
 
 }  // namespace
@@ -127,10 +154,6 @@ std::string make_largest(const ReportView& view) {
   const auto ranked = rank_settings(view);
   if (ranked.size() < 2) return "";
   const auto time = find_time_column(view);
-  std::vector<std::string> headings{title_of(view.metric)};
-  if (time) headings.emplace_back("Time [s]");
-  for (const std::string& path : view.axes) headings.push_back(title_of(path));
-  headings.emplace_back("Job");
   std::vector<std::vector<json>> rows;
   for (std::size_t k = 0; k < std::min(ranked.size(), kMostListed); ++k) {
     const auto& row = view.results.rows[ranked[k].row];
@@ -140,7 +163,7 @@ std::string make_largest(const ReportView& view) {
     cells.push_back(row.front());
     rows.push_back(std::move(cells));
   }
-  return make_table(headings, rows);
+  return make_table(headings_of_largest(view, time.has_value()), rows);
 }
 
 }  // namespace server::report

@@ -38,9 +38,26 @@ std::size_t index_of(const std::vector<json>& values, const json& value) {
   return static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
 }
 
-charts::HeatMap make_map(const ReportView& view, const jobs::RowGroup& panel, const std::vector<json>& xs,
-                         const std::vector<json>& ys, const std::string& x, const std::string& y) {
-  charts::HeatMap map{.title = {}, .columns = names_of(xs), .rows = names_of(ys), .values = {}};
+/// Axes of all maps, with the values that they have.
+struct Plane {
+  std::string x, y;
+  std::vector<json> xs, ys;
+  std::vector<std::string> others{};  ///< axes of which each map has one value
+};
+
+std::string make_map_title(const Plane& plane, const jobs::RowGroup& panel) {
+  std::string title;
+  for (std::size_t k = 0; k < plane.others.size(); ++k) {
+    const std::string& path = plane.others[k];
+    title += (k > 0 ? ", " : "") + name_of(path) + " " + value_text(panel.values[k], path);
+  }
+  return title;
+}
+
+charts::HeatMap make_map(const ReportView& view, const jobs::RowGroup& panel, const Plane& plane) {
+  const auto& [x, y, xs, ys, others] = plane;
+  charts::HeatMap map{
+      .title = make_map_title(plane, panel), .columns = names_of(xs), .rows = names_of(ys), .values = {}};
   map.values.assign(ys.size(), std::vector<double>(xs.size(), std::numeric_limits<double>::quiet_NaN()));
   std::vector<std::vector<std::vector<std::size_t>>> rows(ys.size(),
                                                           std::vector<std::vector<std::size_t>>(xs.size()));
@@ -55,36 +72,32 @@ charts::HeatMap make_map(const ReportView& view, const jobs::RowGroup& panel, co
 }
 
 /// The two axes with most values, that along the charts first.
-std::vector<std::string> choose_plane(const ReportView& view) {
+Plane choose_plane(const ReportView& view) {
   std::vector<std::string> axes = view.axes;
   std::ranges::stable_sort(axes, std::ranges::greater(), [&](const std::string& path) {
     return path == view.along ? std::numeric_limits<std::size_t>::max() : values_of(view, path).size();
   });
-  return axes;
+  return {.x = axes[0],
+          .y = axes[1],
+          .xs = values_of(view, axes[0]),
+          .ys = values_of(view, axes[1]),
+          .others = {axes.begin() + 2, axes.end()}};
 }
 
 }  // namespace
 
 std::string make_heat_maps(const ReportView& view) {
   if (view.designed || view.axes.size() < 2) return "";
-  const std::vector<std::string> axes = choose_plane(view);
-  const std::string& x = axes[0];
-  const std::string& y = axes[1];
-  const auto xs = values_of(view, x), ys = values_of(view, y);
-  std::vector<std::size_t> others;
-  for (std::size_t k = 2; k < axes.size(); ++k) others.push_back(view.column(axes[k]));
-  const auto panels = jobs::group_rows(view.results, others);
-  if (xs.size() < 2 || ys.size() < 2 || xs.size() > kMostColumns || ys.size() > kMostRows ||
-      panels.size() > kMostMaps)
+  const Plane plane = choose_plane(view);
+  std::vector<std::size_t> columns;
+  for (const std::string& path : plane.others) columns.push_back(view.column(path));
+  const auto panels = jobs::group_rows(view.results, columns);
+  if (plane.xs.size() < 2 || plane.ys.size() < 2 || plane.xs.size() > kMostColumns ||
+      plane.ys.size() > kMostRows || panels.size() > kMostMaps)
     return "";
   std::vector<charts::HeatMap> maps;
-  for (const jobs::RowGroup& panel : panels) {
-    maps.push_back(make_map(view, panel, xs, ys, x, y));
-    for (std::size_t k = 0; k < others.size(); ++k)
-      maps.back().title +=
-          (k > 0 ? ", " : "") + name_of(axes[k + 2]) + " " + value_text(panel.values[k], axes[k + 2]);
-  }
-  const std::string svg = charts::draw_heat_maps(maps, title_of(x), title_of(y), title_of(view.metric));
+  for (const jobs::RowGroup& panel : panels) maps.push_back(make_map(view, panel, plane));
+  const auto svg = charts::draw_heat_maps(maps, title_of(plane.x), title_of(plane.y), title_of(view.metric));
   return svg.empty() ? ""
                      : "<figure>" + svg + "<figcaption>" + escape(title_of(view.metric)) +
                            " of all combinations; means of what lies together.</figcaption></figure>\n";

@@ -55,27 +55,25 @@ std::string style_hash() {
   return {reinterpret_cast<const char*>(text.data()), static_cast<std::size_t>(length)};
 }
 
+/// What stands for a sign of HTML in a text; empty for any other character.
+std::string_view entity_of(char c) {
+  switch (c) {
+    case '<': return "&lt;";
+    case '>': return "&gt;";
+    case '&': return "&amp;";
+    case '"': return "&quot;";
+    default: return "";
+  }
+}
+
 }  // namespace
 
 std::string escape(const std::string& text) {
   std::string safe;
   for (const char c : text) {
-    switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
+    const std::string_view entity = entity_of(c);
+    if (entity.empty()) safe += c;
+    else safe += entity;
   }
   return safe;
 }
@@ -102,20 +100,23 @@ std::string cell_html(const nlohmann::json& cell) {
   return "<a href=\"../../../#/jobs/" + text + "\">" + text + "</a>";
 }
 
+std::string make_table_head(const std::vector<std::string>& headings,
+                            const std::vector<std::vector<nlohmann::json>>& rows) {
+  if (headings.empty()) return "";
+  std::string html = "<thead><tr>";
+  for (std::size_t c = 0; c < headings.size(); ++c)
+    html += std::string("<th scope=\"col\"") + (has_numbers(rows, c) ? " class=\"number\"" : "") + ">" +
+            escape(headings[c]) + "</th>";
+  return html + "</tr></thead>";
+}
+
 }  // namespace
 
 std::string make_table(const std::vector<std::string>& headings,
                        const std::vector<std::vector<nlohmann::json>>& rows) {
   // What may be wider than the window is reached with the keyboard, too.
   std::string html = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table>";
-  if (!headings.empty()) {
-    html += "<thead><tr>";
-    for (std::size_t c = 0; c < headings.size(); ++c)
-      html += std::string("<th scope=\"col\"") + (has_numbers(rows, c) ? " class=\"number\"" : "") + ">" +
-              escape(headings[c]) + "</th>";
-    html += "</tr></thead>";
-  }
-  html += "<tbody>\n";
+  html += make_table_head(headings, rows) + "<tbody>\n";
   for (const auto& row : rows) {
     html += "<tr>";
     for (const auto& cell : row)
