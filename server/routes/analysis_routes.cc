@@ -149,6 +149,19 @@ Response make_columns(const RequestContext& context, TableFormat format, const e
       make_table(format, std::move(text), name + "-" + context.id));  // only what has ended has a trajectory
 }
 
+/// Counts a job for its program and machine.
+void count_setup(nlohmann::json setup, report::Provenance& provenance) {
+  auto found = std::ranges::find_if(provenance.setups, [&](nlohmann::json known) {
+    known.erase("jobs");
+    return known == setup;
+  });
+  if (found == provenance.setups.end()) {
+    setup["jobs"] = 0;
+    found = provenance.setups.insert(found, setup);
+  }
+  (*found)["jobs"] = found->at("jobs").get<int>() + 1;
+}
+
 /// Programs and machines of the first jobs of a sweep.
 report::Provenance find_provenance(const RequestContext& context, const jobs::ResultTable& results) {
   constexpr std::size_t kMaxJobs = 1000;
@@ -160,15 +173,7 @@ report::Provenance find_provenance(const RequestContext& context, const jobs::Re
     if (!job || job->at("run").is_null()) continue;
     nlohmann::json setup = job->at("run").at("program");
     for (const char* const key : {"host", "cpu"}) setup[key] = job->at("run").at(key);
-    auto found = std::ranges::find_if(provenance.setups, [&](nlohmann::json known) {
-      known.erase("jobs");
-      return known == setup;
-    });
-    if (found == provenance.setups.end()) {
-      setup["jobs"] = 0;
-      found = provenance.setups.insert(found, setup);
-    }
-    (*found)["jobs"] = found->at("jobs").get<int>() + 1;
+    count_setup(std::move(setup), provenance);
   }
   return provenance;
 }
@@ -182,6 +187,30 @@ report::FailureCounts count_failures(const RequestContext& context, const nlohma
   for (const auto& row : failed->rows)
     ++counts[row.front().is_string() ? row.front().get<std::string>() : std::string("unknown")];
   return counts;
+}
+
+report::ReportQuery read_report_query(Query& query) {
+  constexpr std::array<std::string_view, 2> kWords{"false", "true"};
+  return {.metric = query.text("metric").value_or(""),
+          .x = query.text("x").value_or(""),
+          .appendix = query.word("rows", kWords) == kWords.back() ? report::Appendix::kRows
+                                                                  : report::Appendix::kNone};
+}
+
+jobs::WearQuery read_wear_query(Query& query) {
+  jobs::WearQuery wanted;
+  wanted.wear_coefficient =
+      query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
+  wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
+  wanted.worn_clearance = query.number("worn_clearance_mm");
+  return wanted;
+}
+
+/// @throws HttpError 404
+jobs::WornBearing find_bearing(const RequestContext& context, const std::string& joint) {
+  const auto job = context.service.find_job(context.id);
+  if (!job) throw HttpError(404, "there is no job " + context.id);
+  return jobs::find_worn_bearing(job->at("parameters"), list_channels(context, context.id), joint);
 }
 
 }  // namespace
@@ -254,12 +283,7 @@ Response get_lyapunov(const RequestContext& context) {
 
 Response get_report(const RequestContext& context) {
   Query query(context.request, {"metric", "x", "rows"});
-  constexpr std::array<std::string_view, 2> kWords{"false", "true"};
-  const report::ReportQuery wanted{
-      .metric = query.text("metric").value_or(""),
-      .x = query.text("x").value_or(""),
-      .appendix = query.word("rows", kWords) == kWords.back() ? report::Appendix::kRows
-                                                              : report::Appendix::kNone};
+  const report::ReportQuery wanted = read_report_query(query);
   bool ended = false;
   std::string page = run_analysis(context, query, find_with_all_columns, [&](const SweepAndResults& found) {
     ended = found.results.ended;
@@ -312,19 +336,12 @@ Response get_wear(const RequestContext& context) {
   Query query(context.request,
               {"joint", "wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to", "format"});
   const TableFormat format = find_row_format(context.request, query);
-  jobs::WearQuery wanted;
-  wanted.wear_coefficient =
-      query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
-  wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
-  wanted.worn_clearance = query.number("worn_clearance_mm");
+  const jobs::WearQuery wanted = read_wear_query(query);
   const std::string joint = query.text("joint").value_or("");
   const jobs::TrajectoryQuery part{
       .channels = {}, .from = query.number("from"), .to = query.number("to")};
   query.check();
-  const auto job = context.service.find_job(context.id);
-  if (!job) throw HttpError(404, "there is no job " + context.id);
-  const jobs::WornBearing bearing =
-      jobs::find_worn_bearing(job->at("parameters"), list_channels(context, context.id), joint);
+  const jobs::WornBearing bearing = find_bearing(context, joint);
   const auto run = find_wear_trajectory(context, bearing, part);
   if (!run) throw no_trajectory(context);
   return make_rows(context, format, make_wear_map(bearing, *run, wanted), "wear");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "server/messages/json_text.h"
 #include "server/messages/problem.h"
@@ -40,6 +41,18 @@ std::string event_text(const char* name, const nlohmann::json& data, const std::
   return (id.empty() ? "" : "id: " + id + "\n") + "event: " + name + "\ndata: " + to_text(data) + "\n\n";
 }
 
+/// Jobs that ended in one change share its number: only the last of them carries it as its id, so that a
+/// client that resumes from it has received all of them.
+std::string job_events_text(const std::vector<jobs::SweepNews::JobEvent>& events) {
+  std::string text;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const auto& [change, job] = events[i];
+    const bool last_of_change = i + 1 == events.size() || events[i + 1].change != change;
+    text += event_text("job", job, last_of_change ? std::to_string(change) : "");
+  }
+  return text;
+}
+
 class Events final : public EventSource {
  public:
   Events(const jobs::Service& service, FindNews find_news, std::int64_t after)
@@ -54,16 +67,8 @@ class Events final : public EventSource {
       ended_ = true;
       return "";
     }
-    std::string text;
-    for (std::size_t i = 0; i < news->jobs.size(); ++i) {
-      // Jobs that ended in one change share its number: only the last of them carries it as its id, so that a
-      // client that resumes from it has received all of them.
-      const bool last_of_change =
-          i + 1 == news->jobs.size() || news->jobs[i + 1].change != news->jobs[i].change;
-      text +=
-          event_text("job", news->jobs[i].job, last_of_change ? std::to_string(news->jobs[i].change) : "");
-      after_ = news->jobs[i].change;
-    }
+    std::string text = job_events_text(news->jobs);
+    if (!news->jobs.empty()) after_ = news->jobs.back().change;
     if (news->progress != progress_) text += event_text("progress", progress_ = news->progress, "");
     ended_ = news->ended;
     if (ended_) text += event_text("done", progress_, std::to_string(after_) + std::string(kDoneSuffix));

@@ -65,6 +65,14 @@ void refuse_column_keys(const Query& query) {
   if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
 }
 
+jobs::ColumnQuery read_column_query(Query& query) {
+  return {.name = query.text("name").value_or(""),
+          .time = query.text("time").value_or(""),
+          .channels = query.list("channels"),
+          .sensors = query.object("sensors"),
+          .parameters = query.object("parameters")};
+}
+
 jobs::Measurement read_measurement(const Request& request) {
   const MeasurementForm form = form_of(request.content_type);
   Query query(request, {"name", "time", "channels", "sensors", "parameters"});
@@ -72,11 +80,7 @@ jobs::Measurement read_measurement(const Request& request) {
     refuse_column_keys(query);
     return jobs::read_measurement_json(parse_json(request.body, kMostMeasurementJsonValues));
   }
-  const jobs::ColumnQuery columns{.name = query.text("name").value_or(""),
-                                  .time = query.text("time").value_or(""),
-                                  .channels = query.list("channels"),
-                                  .sensors = query.object("sensors"),
-                                  .parameters = query.object("parameters")};
+  const jobs::ColumnQuery columns = read_column_query(query);
   return query.check_and([&] {
     return form == MeasurementForm::kCsv ? jobs::read_measurement_csv(request.body, columns)
                                          : jobs::read_measurement_npz(request.body, columns);

@@ -38,24 +38,23 @@ std::optional<std::string> match(std::string_view pattern, std::string_view path
   return is_id(id) ? std::optional(std::move(id)) : std::nullopt;
 }
 
-/// Query of a request as it stands in an address.
-std::string address_query(const Request& request) {
+/// A key or a value of a query as it stands in an address.
+std::string percent_encoded(std::string_view part) {
   constexpr std::string_view kSigns = "-._~,:";
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;
-  const auto add = [&](std::string_view part) {
-    for (const unsigned char c : part) {
-      if ((c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos)
-        text += static_cast<char>(c);
-      else (text += '%') += {kDigits[c >> 4U], kDigits[c & 15U]};
-    }
-  };
-  for (const auto& [key, value] : request.query) {
-    text += text.empty() ? '?' : '&';
-    add(key);
-    text += '=';
-    add(value);
+  for (const unsigned char c : part) {
+    if ((c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos)
+      text += static_cast<char>(c);
+    else (text += '%') += {kDigits[c >> 4U], kDigits[c & 15U]};
   }
+  return text;
+}
+
+std::string address_query(const Request& request) {
+  std::string text;
+  for (const auto& [key, value] : request.query)
+    text += (text.empty() ? "?" : "&") + percent_encoded(key) + "=" + percent_encoded(value);
   return text;
 }
 
@@ -138,25 +137,23 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
     auto id = match(route.pattern, request.path);
     if (!id) continue;
     pattern = route.pattern;
-    if (route.method == method) {
-      if (draining_ && changes_something(method))
-        return make_retry_later(503, "the service is shutting down");
-      const auto permit = is_heavy(route, request) ? heavy_limit_.acquire() : idle_permit();
-      if (!permit) return make_retry_later(503, "as many large requests wait as may; try again");
-      return route.handler({service_, request, std::move(*id), draining_, *metrics_, long_poll_limit_,
-                            store_copy_limit_, stream_limit_, export_limit_});
-    }
+    if (route.method == method) return run_route(route, request, std::move(*id));
     allowed +=
         (allowed.empty() ? "" : ", ") + std::string(route.method == "GET" ? "GET, HEAD" : route.method);
   }
-  // What the page is made of; only the page names it.
-  if (allowed.empty() && is_page_file(request.path)) {
-    pattern = "/";
-    if (method == "GET") return make_file_answer(request, request.path);
-    allowed = "GET, HEAD";
-  }
   if (!allowed.empty()) return make_wrong_method(allowed);
-  return answer_unknown_path(request, method);
+  if (!is_page_file(request.path)) return answer_unknown_path(request, method);
+  pattern = "/";  // of what the page is made of; only the page names it
+  return method == "GET" ? make_file_answer(request, request.path) : make_wrong_method("GET, HEAD");
+}
+
+Response Routes::run_route(const Route& route, const Request& request, std::string id) const {
+  if (draining_ && changes_something(route.method))
+    return make_retry_later(503, "the service is shutting down");
+  const auto permit = is_heavy(route, request) ? heavy_limit_.acquire() : idle_permit();
+  if (!permit) return make_retry_later(503, "as many large requests wait as may; try again");
+  return route.handler({service_, request, std::move(id), draining_, *metrics_, long_poll_limit_,
+                        store_copy_limit_, stream_limit_, export_limit_});
 }
 
 }  // namespace server

@@ -15,6 +15,8 @@
 
 namespace server {
 
+struct Route;
+
 /// Answers requests: finds the route, calls its handler, and turns exceptions into answers. Thread-safe.
 class Routes {
  public:
@@ -33,6 +35,7 @@ class Routes {
   static void give_memory_back();
   /// @param pattern  set to that of the route, if there is one
   [[nodiscard]] Response dispatch(const Request& request, std::string_view& pattern) const;
+  [[nodiscard]] Response run_route(const Route& route, const Request& request, std::string id) const;
 
   jobs::Service& service_;
   std::shared_ptr<Metrics> metrics_;

@@ -93,6 +93,17 @@ std::string etag_of(const FileBody& file) {
   return "\"" + digest.substr(0, 32) + "\"";
 }
 
+/// The answer with the file of trajectories of a sweep, without the file.
+Response make_export_answer(const RequestContext& context, TableFormat format, const std::string& etag) {
+  Response response;
+  response.content_type = info_of(format).media_type;
+  response.headers = {{"Vary", "Accept"},
+                      {"Cache-Control", "private, no-cache"},
+                      {"Content-Disposition", "attachment; filename=\"sweep-" + context.id + "." +
+                                                  std::string(info_of(format).word) + "\""}};
+  return with_etag(context.request, std::move(response), etag);
+}
+
 }  // namespace
 
 void remove_left_over_files(const std::filesystem::path& store) {
@@ -131,13 +142,7 @@ Response get_trajectories(const RequestContext& context) {
   if (!is_there) throw HttpError(404, "there is no sweep " + context.id);
   const auto body = open_nameless(file.path(), std::move(permit));
   const std::string etag = etag_of(*body);
-  Response response;
-  response.content_type = info_of(format).media_type;
-  response.headers = {{"Vary", "Accept"},
-                      {"Cache-Control", "private, no-cache"},
-                      {"Content-Disposition", "attachment; filename=\"sweep-" + context.id + "." +
-                                                  std::string(info_of(format).word) + "\""}};
-  response = with_etag(context.request, std::move(response), etag);
+  Response response = make_export_answer(context, format, etag);
   if (response.status != 200) return response;
   return answer_with_file(context.request, std::move(response), body, etag);
 }
