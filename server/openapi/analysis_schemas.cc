@@ -20,6 +20,24 @@ Json rows_of(Json properties) {
   return list_of(std::move(row));
 }
 
+void add_morris_columns(Json& properties) {
+  for (const char* const key :
+       {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"}) {
+    properties[key] = described(kNumberOrNull,
+                                "of a morris design: what the whole range of the parameter changes, in the "
+                                "metric's unit; low and high: 95 %");
+  }
+}
+
+void add_saltelli_columns(Json& properties) {
+  for (const char* const key :
+       {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"}) {
+    properties[key] = described(kNumberOrNull,
+                                "of a saltelli design: the part of the metric's variance that the parameter "
+                                "makes, alone and in total; low and high: 95 %");
+  }
+}
+
 Json make_sensitivity() {
   Json properties{
       {"metric", kText},
@@ -29,18 +47,8 @@ Json make_sensitivity() {
       {"mean", kNumberOrNull},
       {"deviation", kNumberOrNull},
       {"noise", described(kNumberOrNull, "the part of the variance that lies between replicates")}};
-  for (const char* const key :
-       {"effect_mean", "effect_size", "effect_size_low", "effect_size_high", "effect_deviation"}) {
-    properties[key] = described(kNumberOrNull,
-                                "of a morris design: what the whole range of the parameter changes, in the "
-                                "metric's unit; low and high: 95 %");
-  }
-  for (const char* const key :
-       {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"}) {
-    properties[key] = described(kNumberOrNull,
-                                "of a saltelli design: the part of the metric's variance that the parameter "
-                                "makes, alone and in total; low and high: 95 %");
-  }
+  add_morris_columns(properties);
+  add_saltelli_columns(properties);
   return rows_of(std::move(properties));
 }
 
@@ -107,34 +115,43 @@ Json make_lyapunov() {
        {"to_s", kNumberOrNull}});
 }
 
-Json make_surrogate() {
-  Json input = object_of({{"parameter", kText},
-                          {"from", kNumber},
-                          {"to", kNumber},
-                          {"scale", {{"type", "string"}, {"enum", {"linear", "log"}}}},
-                          {"middle", kNumber}});
-  Json at{{"type", "object"},
+Json make_surrogate_input() {
+  return object_of({{"parameter", kText},
+                    {"from", kNumber},
+                    {"to", kNumber},
+                    {"scale", {{"type", "string"}, {"enum", {"linear", "log"}}}},
+                    {"middle", kNumber}});
+}
+
+Json make_surrogate_point() {
+  return {{"type", "object"},
           {"required", {"value", "left_out_prediction"}},
           {"additionalProperties", kNumberOrNull},
           {"description", "the inputs, the value there, and what is predicted from all other points"}};
-  Json surface =
-      object_of({{"where", {{"type", "object"}}},
-                 {"points", kCount},
-                 {"degree", or_null(kCount)},
-                 {"terms", or_null(kCount)},
-                 {"cross_validation_error",
-                  described(kNumberOrNull,
-                            "root mean square, each point predicted from all others; in the metric's unit")},
-                 {"predicted_part", described(kNumberOrNull, "of the variance, the same way")},
-                 {"x_values", list_of(kNumber)},
-                 {"y_values", list_of(kNumber)},
-                 {"values", or_null(list_of(list_of(kNumberOrNull)))},
-                 {"at", list_of(std::move(at))}});
+}
+
+Json make_surrogate_surface() {
+  return object_of(
+      {{"where", {{"type", "object"}}},
+       {"points", kCount},
+       {"degree", or_null(kCount)},
+       {"terms", or_null(kCount)},
+       {"cross_validation_error",
+        described(kNumberOrNull,
+                  "root mean square, each point predicted from all others; in the metric's unit")},
+       {"predicted_part", described(kNumberOrNull, "of the variance, the same way")},
+       {"x_values", list_of(kNumber)},
+       {"y_values", list_of(kNumber)},
+       {"values", or_null(list_of(list_of(kNumberOrNull)))},
+       {"at", list_of(make_surrogate_point())}});
+}
+
+Json make_surrogate() {
   return object_of({{"metric", kText},
                     {"x", kText},
                     {"y", or_null(kText)},
-                    {"inputs", list_of(std::move(input))},
-                    {"surfaces", list_of(std::move(surface))}});
+                    {"inputs", list_of(make_surrogate_input())},
+                    {"surfaces", list_of(make_surrogate_surface())}});
 }
 
 Json make_wear() {

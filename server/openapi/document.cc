@@ -100,33 +100,43 @@ Json make_success(const Route& route, int status) {
   return answer;
 }
 
-Json make_operation(const Route& route) {
-  Json operation{{"operationId", route.operation_id}, {"tags", {route.tag}}, {"summary", route.summary}};
+void add_parameters_to(Json& operation, const Route& route) {
   if (route.pattern.find("{id}") != std::string_view::npos)
     operation["parameters"].push_back({{"$ref", "#/components/parameters/id"}});
   for (const auto* ids : {&route.query, &route.headers}) {
     for (const std::string_view id : *ids)
       operation["parameters"].push_back({{"$ref", "#/components/parameters/" + std::string(id)}});
   }
-  if (!route.body.empty()) {
-    operation["requestBody"] = {{"required", true},
-                                {"content", {{"application/json", {{"schema", openapi::ref(route.body)}}}}}};
-    for (const AnswerForm& form : route.other_bodies)
-      operation["requestBody"]["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);
-  }
-  operation["responses"][std::to_string(route.success)] = make_success(route, route.success);
+}
+
+Json make_request_body(const Route& route) {
+  Json body{{"required", true},
+            {"content", {{"application/json", {{"schema", openapi::ref(route.body)}}}}}};
+  for (const AnswerForm& form : route.other_bodies)
+    body["content"][std::string(form.media_type)]["schema"] = openapi::ref(form.schema);
+  return body;
+}
+
+Json make_responses(const Route& route) {
+  Json responses = Json::object();
+  responses[std::to_string(route.success)] = make_success(route, route.success);
   for (const OtherAnswer& other : route.other_answers) {
     Json answer = make_answer(route, other.status);
     answer["content"][std::string(other.form.media_type)]["schema"] = openapi::ref(other.form.schema);
-    operation["responses"][std::to_string(other.status)] = std::move(answer);
+    responses[std::to_string(other.status)] = std::move(answer);
   }
-  if (route.partial) operation["responses"]["206"] = make_success(route, 206);
-  for (const int status : route.bodiless)
-    operation["responses"][std::to_string(status)] = make_answer(route, status);
-  for (const int status : problems_of(route)) {
-    operation["responses"][std::to_string(status)] = {
-        {"$ref", "#/components/responses/" + problem_name(status)}};
-  }
+  if (route.partial) responses["206"] = make_success(route, 206);
+  for (const int status : route.bodiless) responses[std::to_string(status)] = make_answer(route, status);
+  for (const int status : problems_of(route))
+    responses[std::to_string(status)] = {{"$ref", "#/components/responses/" + problem_name(status)}};
+  return responses;
+}
+
+Json make_operation(const Route& route) {
+  Json operation{{"operationId", route.operation_id}, {"tags", {route.tag}}, {"summary", route.summary}};
+  add_parameters_to(operation, route);
+  if (!route.body.empty()) operation["requestBody"] = make_request_body(route);
+  operation["responses"] = make_responses(route);
   return operation;
 }
 
@@ -184,16 +194,19 @@ Json make_security_schemes() {
             {"description", "The same token as the password of any user"}}}};
 }
 
+Json make_info() {
+  return {{"title", "RPSUP parameter studies"},
+          {"version", jobs::kProgramVersion},
+          {"description",
+           "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and "
+           "hands them out. Units stand in the names; whatever answers GET answers HEAD, too."}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json make_document(std::span<const Route> routes) {
   return {{"openapi", "3.1.0"},
-          {"info",
-           {{"title", "RPSUP parameter studies"},
-            {"version", jobs::kProgramVersion},
-            {"description",
-             "Simulates the RPSUP linkage over sweeps of its parameters, keeps peaks and trajectories, and "
-             "hands them out. Units stand in the names; whatever answers GET answers HEAD, too."}}},
+          {"info", make_info()},
           {"servers", {{{"url", ".."}}}},  // relative to /v1/openapi.json
           {"security", {Json::object(), {{"bearer", Json::array()}}, {{"basic", Json::array()}}}},
           {"paths", make_paths(routes)},

@@ -57,33 +57,38 @@ Json patterns_of(std::span<const engine::QuantityInfo> quantities, const ValueSc
   return patterns;
 }
 
-/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, one that
-/// motors move on it, another on a revolute joint; the first and the last are joined by a revolute joint with
-/// clearance and by a spring.
-engine::LinkageTables make_sample_tables() {
-  const auto make_joint = [](engine::JointKind kind, const char* from, const char* to) {
-    engine::LinkageJoint joint;
-    joint.name = "{joint}";
-    joint.kind = kind;
-    joint.from = from;
-    joint.to = to;
-    return joint;
-  };
-  engine::LinkageJoint driven = make_joint(engine::JointKind::kCylindrical, engine::kGroundName, "{body}");
+engine::LinkageJoint make_sample_joint(engine::JointKind kind, const char* from, const char* to) {
+  engine::LinkageJoint joint;
+  joint.name = "{joint}";
+  joint.kind = kind;
+  joint.from = from;
+  joint.to = to;
+  return joint;
+}
+
+std::vector<engine::LinkageJoint> make_sample_joints() {
+  auto driven = make_sample_joint(engine::JointKind::kCylindrical, engine::kGroundName, "{body}");
   driven.freedoms.assign(2, {.name = "{coordinate}", .drive = engine::DriveLaw{}});
-  engine::LinkageJoint actuated = make_joint(engine::JointKind::kCylindrical, "{body}", "third");
+  auto actuated = make_sample_joint(engine::JointKind::kCylindrical, "{body}", "third");
   actuated.freedoms.assign(2, {.name = "{coordinate}",
                                .actuator = engine::DcMotor{},
                                .load = engine::ForceLaw{},
                                .friction = engine::JointFriction{}});
-  engine::LinkageJoint carrying = make_joint(engine::JointKind::kRevolute, engine::kGroundName, "other");
+  auto carrying = make_sample_joint(engine::JointKind::kRevolute, engine::kGroundName, "other");
   carrying.freedoms.assign(1, {.name = "{coordinate}"});
-  engine::LinkageJoint closing = make_joint(engine::JointKind::kRevolute, "{body}", "other");
+  auto closing = make_sample_joint(engine::JointKind::kRevolute, "{body}", "other");
   closing.cut = true;
   closing.clearance = engine::ClearanceParameters{};
+  return {driven, actuated, carrying, closing};
+}
+
+/// Quantities of a linkage whose names are placeholders: a body on a driven cylindrical joint, one that
+/// motors move on it, another on a revolute joint; the first and the last are joined by a revolute joint with
+/// clearance and by a spring.
+engine::LinkageTables make_sample_tables() {
   engine::Linkage linkage;
   linkage.bodies = {{.name = "{body}"}, {.name = "other"}, {.name = "third"}};
-  linkage.joints = {driven, actuated, carrying, closing};
+  linkage.joints = make_sample_joints();
   linkage.springs = {{.name = "{spring}", .from = "{body}", .to = "other"}};
   const Eigen::Vector3d along = Eigen::Vector3d::UnitX();
   linkage.loads = {{.name = "{load}", .body = "other", .force = along, .law = {}},
@@ -107,9 +112,8 @@ const engine::LinkageTables& sample_tables() {
   return tables;
 }
 
-/// Channels of the RPSUP linkage with and without flexible links, wear and motors.
-std::vector<engine::QuantityInfo> all_channels() {
-  std::vector<engine::QuantityInfo> channels = engine::channel_table({});
+/// Parameters of an RPSUP linkage with flexible links, wear and motors.
+engine::RpsupParameters make_full_parameters() {
   engine::RpsupParameters parameters;
   parameters.cross_length = 0.1;
   for (engine::RoundLink* const link : {&parameters.crank, &parameters.rod, &parameters.cross}) {
@@ -119,7 +123,13 @@ std::vector<engine::QuantityInfo> all_channels() {
   parameters.crank_actuator = parameters.rod_actuator = engine::DcMotor{};
   parameters.wear_depth.assign(static_cast<std::size_t>(parameters.radial_levels),
                                std::vector<double>(16, 0.0));
-  for (engine::QuantityInfo& channel : engine::channel_table(parameters)) {
+  return parameters;
+}
+
+/// Channels of the RPSUP linkage with and without flexible links, wear and motors.
+std::vector<engine::QuantityInfo> all_channels() {
+  std::vector<engine::QuantityInfo> channels = engine::channel_table({});
+  for (engine::QuantityInfo& channel : engine::channel_table(make_full_parameters())) {
     const bool known = std::ranges::find(channels, channel.key, &engine::QuantityInfo::key) != channels.end();
     if (!known && !channel.key.starts_with("pose_")) channels.push_back(std::move(channel));
   }

@@ -172,15 +172,20 @@ Json make_page_schema(std::string_view item) {
                     {"next_cursor", described(kText, "for the next page; empty on the last one")}});
 }
 
-Json make_result_row() {
-  Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", kCount}};
-  add_parameters_of_row(properties);
-  properties.update(metric_properties(metric_value));
+/// Statistics of the row's set of equal parameters.
+void add_replicate_statistics(Json& properties) {
   properties["replicates_count"] =
       described(kCount, "of the row's set, those that have succeeded; the statistics are of their " +
                             std::string(jobs::kReplicateMetric) + ", or of the metric of the query");
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"})
     properties[key] = or_null(kNumber);
+}
+
+Json make_result_row() {
+  Json properties{{"job_id", ref("Id")}, {"state", ref("State")}, {"replicate", kCount}};
+  add_parameters_of_row(properties);
+  properties.update(metric_properties(metric_value));
+  add_replicate_statistics(properties);
   for (const std::string_view column : jobs::kErrorColumns)
     properties[std::string(column)] = described(or_null(kText), "why a job failed; only if it is named");
   Json row = options_of(std::move(properties));
