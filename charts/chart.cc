@@ -173,20 +173,32 @@ class ChartDrawing {
     return {chart_.y_scale, range.least, range.most, box_.top + height, box_.top};
   }
 
-  [[nodiscard]] std::string draw_frame() const {
-    const double right = chart_.equal_axes ? box_.left + std::min(box_.right - box_.left, box_.bottom - box_.top) : box_.right;
-    const double middle_y = 0.5 * (box_.top + box_.bottom);
-    std::string svg = draw_text({box_.left, box_.top - 10.0}, "start", chart_.title, " font-weight=\"bold\"");
+  [[nodiscard]] std::string draw_x_ticks() const {
+    std::string svg;
     for (const double tick : x_.ticks()) {
       const double x = x_.pixel_of(tick);
       svg += "<path d=\"M" + pixel(x) + " " + pixel(box_.top) + "V" + pixel(box_.bottom) + "\" stroke=\"#e4e4e4\"/>\n";
       svg += draw_text({x, box_.bottom + 15.0}, "middle", x_.label(tick));
     }
+    return svg;
+  }
+
+  /// @param right  end of the lines at the ticks
+  [[nodiscard]] std::string draw_y_ticks(double right) const {
+    std::string svg;
     for (const double tick : y_.ticks()) {
       const double y = y_.pixel_of(tick);
       svg += "<path d=\"M" + pixel(box_.left) + " " + pixel(y) + "H" + pixel(right) + "\" stroke=\"#e4e4e4\"/>\n";
       svg += draw_text({box_.left - 5.0, y + 4.0}, "end", y_.label(tick));
     }
+    return svg;
+  }
+
+  [[nodiscard]] std::string draw_frame() const {
+    const double right = chart_.equal_axes ? box_.left + std::min(box_.right - box_.left, box_.bottom - box_.top) : box_.right;
+    const double middle_y = 0.5 * (box_.top + box_.bottom);
+    std::string svg = draw_text({box_.left, box_.top - 10.0}, "start", chart_.title, " font-weight=\"bold\"");
+    svg += draw_x_ticks() + draw_y_ticks(right);
     svg += "<path d=\"M" + pixel(box_.left) + " " + pixel(box_.top) + "V" + pixel(box_.bottom) + "H" + pixel(right) + "\" stroke=\"#888\" fill=\"none\"/>\n";
     svg += draw_text({0.5 * (box_.left + right), box_.bottom + 32.0}, "middle", chart_.x_label);
     const double label_x = left_ + 12.0;
@@ -194,31 +206,59 @@ class ChartDrawing {
     return svg;
   }
 
+  [[nodiscard]] static std::string dashes_of(const Series& series) {
+    return series.dashes.empty() ? "" : " stroke-dasharray=\"" + series.dashes + "\"";
+  }
+
+  [[nodiscard]] bool is_inside(Point at) const {
+    return at.x >= box_.left - 1.0 && at.x <= box_.right + 1.0 && at.y >= box_.top - 1.0 &&
+           at.y <= box_.bottom + 1.0;
+  }
+
+  [[nodiscard]] static std::string draw_dot(Point at, const std::string& colour) {
+    return "<circle cx=\"" + pixel(at.x) + "\" cy=\"" + pixel(at.y) + "\" r=\"3\" fill=\"" + colour +
+           "\"/>\n";
+  }
+
+  [[nodiscard]] static std::string draw_path(const std::string& path, const Series& series) {
+    if (path.empty() || series.width <= 0.0) return "";
+    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" +
+           format("%g", series.width) + "\"" + dashes_of(series) + "/>\n";
+  }
+
   /// Points outside the axes are left out, and break the line.
   [[nodiscard]] std::string draw_series(const Series& series) const {
-    std::string path, dots, last;
-    bool joined = false;
+    std::string path, dots, last;  // last: the point before, empty where the line begins
     for (std::size_t i = 0; i < series.x.size(); ++i) {
       const Point at{x_.pixel_of(series.x[i]), y_.pixel_of(series.y[i])};
-      const bool inside = at.x >= box_.left - 1.0 && at.x <= box_.right + 1.0 && at.y >= box_.top - 1.0 && at.y <= box_.bottom + 1.0;
-      if (!inside) {
-        joined = false;
+      if (!is_inside(at)) {
+        last.clear();
         continue;
       }
       const std::string here = pixel(at.x) + " " + pixel(at.y);
-      if (joined && here == last) continue;
-      path += (joined ? "L" : "M") + here;
-      if (series.markers)
-        dots += "<circle cx=\"" + pixel(at.x) + "\" cy=\"" + pixel(at.y) + "\" r=\"3\" fill=\"" + series.colour + "\"/>\n";
-      joined = true;
+      if (here == last) continue;
+      path += (last.empty() ? "M" : "L") + here;
+      if (series.markers) dots += draw_dot(at, series.colour);
       last = here;
     }
-    if (path.empty() || series.width <= 0.0) return dots;
-    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + series.colour + "\" stroke-width=\"" + format("%g", series.width) + "\"" + dashes_of(series) + "/>\n" + dots;
+    return draw_path(path, series) + dots;
   }
 
-  [[nodiscard]] static std::string dashes_of(const Series& series) {
-    return series.dashes.empty() ? "" : " stroke-dasharray=\"" + series.dashes + "\"";
+  [[nodiscard]] std::string draw_entry_outside(const Series& series, double y) const {
+    return "<path d=\"M" + pixel(box_.right + 8.0) + " " + pixel(y - 4.0) + "h14\" stroke=\"" +
+           series.colour + "\" stroke-width=\"3\"" + dashes_of(series) + "/>\n" +
+           draw_text({box_.right + 27.0, y}, "start", series.label);
+  }
+
+  [[nodiscard]] std::string draw_entry_inside(const Series& series, double y) const {
+    // Width of the ground that keeps the label legible over lines.
+    const double width = 7.0 * static_cast<double>(series.label.size()) + 22.0;
+    const std::string ground = "<rect x=\"" + pixel(box_.right - width) + "\" y=\"" + pixel(y - 12.0) +
+                               "\" width=\"" + pixel(width) +
+                               "\" height=\"15\" fill=\"#fff\" fill-opacity=\"0.8\"/>\n";
+    const std::string line = "<path d=\"M" + pixel(box_.right - 12.0) + " " + pixel(y - 4.0) +
+                             "h12\" stroke=\"" + series.colour + "\" stroke-width=\"3\"/>\n";
+    return ground + line + draw_text({box_.right - 17.0, y}, "end", series.label);
   }
 
   [[nodiscard]] std::string draw_legend() const {
@@ -226,17 +266,7 @@ class ChartDrawing {
     double y = box_.top + 12.0;
     for (const Series& series : chart_.series) {
       if (series.label.empty()) continue;
-      if (chart_.legend_outside) {
-        svg += "<path d=\"M" + pixel(box_.right + 8.0) + " " + pixel(y - 4.0) + "h14\" stroke=\"" + series.colour + "\" stroke-width=\"3\"" + dashes_of(series) + "/>\n";
-        svg += draw_text({box_.right + 27.0, y}, "start", series.label);
-        y += 15.0;
-        continue;
-      }
-      const double width = 7.0 * static_cast<double>(series.label.size()) + 22.0;  // of the ground that keeps it legible over lines
-      svg += "<rect x=\"" + pixel(box_.right - width) + "\" y=\"" + pixel(y - 12.0) + "\" width=\"" + pixel(width) +
-             "\" height=\"15\" fill=\"#fff\" fill-opacity=\"0.8\"/>\n";
-      svg += "<path d=\"M" + pixel(box_.right - 12.0) + " " + pixel(y - 4.0) + "h12\" stroke=\"" + series.colour + "\" stroke-width=\"3\"/>\n";
-      svg += draw_text({box_.right - 17.0, y}, "end", series.label);
+      svg += chart_.legend_outside ? draw_entry_outside(series, y) : draw_entry_inside(series, y);
       y += 15.0;
     }
     return svg;

@@ -9,17 +9,22 @@
 
 namespace charts {
 
+namespace {
+
+/// Viridis of matplotlib (CC0) at eighths of its length; linear in between.
+constexpr std::array<std::array<int, 3>, 9> kStops{{{68, 1, 84},
+                                                    {71, 44, 122},
+                                                    {59, 81, 139},
+                                                    {44, 113, 142},
+                                                    {33, 144, 141},
+                                                    {39, 173, 129},
+                                                    {92, 200, 99},
+                                                    {170, 220, 50},
+                                                    {253, 231, 37}}};
+
+}  // namespace
+
 std::string colour_at(double part) {
-  // Viridis of matplotlib (CC0) at eighths of its length, linear in between.
-  constexpr std::array<std::array<int, 3>, 9> kStops{{{68, 1, 84},
-                                                      {71, 44, 122},
-                                                      {59, 81, 139},
-                                                      {44, 113, 142},
-                                                      {33, 144, 141},
-                                                      {39, 173, 129},
-                                                      {92, 200, 99},
-                                                      {170, 220, 50},
-                                                      {253, 231, 37}}};
   const double place = std::clamp(std::isfinite(part) ? part : 0.0, 0.0, 1.0) * (kStops.size() - 1);
   const auto first = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
   const double rest = place - static_cast<double>(first);

@@ -99,12 +99,11 @@ class HeatMapDrawing {
     if (!std::isfinite(value))
       return draw_rect(x, y, cell_, kRow, "fill=\"#fff\" stroke=\"#ddd\"") + draw_text(middle, "middle", "–");
     const double part = range_.part_of(value);
-    const bool largest = value == range_.most;
     std::string svg = draw_rect(x, y, cell_, kRow, "fill=\"" + colour_at(part) + "\"");
     if (cell_ >= kLeastCellWithText)
       svg += draw_text(middle, "middle", short_number(value),
                        std::string(" font-size=\"10\" fill=\"") + text_colour_on(part) + "\"");
-    if (largest)
+    if (value == range_.most)
       svg += draw_rect(x + 1.0, y + 1.0, cell_ - 2.0, kRow - 2.0,
                        "fill=\"none\" stroke=\"#d00\" stroke-width=\"2\"");
     return svg;
@@ -127,6 +126,12 @@ std::string draw_scale(const ValueRange& range, double left, double top, const s
          draw_text({left + kWidth + 12.0, top + 10.0}, "start", label + ", the largest framed");
 }
 
+/// Label that stands upright at the left of a map's rows.
+std::string draw_y_label(const std::string& label, double top, double height) {
+  const double middle = top + 0.5 * height;
+  return draw_text({12.0, middle}, "middle", label, " transform=\"rotate(-90 12.0 " + pixel(middle) + ")\"");
+}
+
 double left_margin_of(const std::vector<HeatMap>& maps) {
   std::size_t longest = 1;
   for (const HeatMap& map : maps)
@@ -146,9 +151,7 @@ std::string draw_heat_maps(const std::vector<HeatMap>& maps, const std::string& 
   for (const HeatMap& map : maps) {
     body += HeatMapDrawing(map, range, left, y, width - 14.0).draw(x_label);
     const double height = kRow * static_cast<double>(map.rows.size());
-    const double middle = y + kTitle + 0.5 * height;
-    body +=
-        draw_text({12.0, middle}, "middle", y_label, " transform=\"rotate(-90 12.0 " + pixel(middle) + ")\"");
+    body += draw_y_label(y_label, y + kTitle, height);
     y += kTitle + height + kBelow;
   }
   body += draw_scale(range, left, y, value_label);
