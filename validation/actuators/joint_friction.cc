@@ -49,23 +49,24 @@ Linkage make_belt() {
   return linkage;
 }
 
-}  // namespace
-
-Findings compute_joint_friction() {
-  Findings findings;
+void add_sliding_down(Findings& findings) {
   FrictionParameters lugre = published_law();
   lugre.mu_s = 0.4;
   lugre.mu_k = 0.3;
   lugre.sigma_1 = lugre.sigma_2 = 0.0;  // a bristle that is not bent at 1 m/s would brake by its damping
   const FrictionParameters coulomb{.mu_k = 0.3, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
   const double expected = 1.0 + kInclineGravity * (std::sin(kInclineAngle) - 0.3 * std::cos(kInclineAngle));
-  for (const auto& [name, law] : {std::pair{"Coulomb", coulomb}, std::pair{"LuGre", lugre}})
+  for (const auto& [name, law] : {std::pair{"Coulomb", coulomb}, std::pair{"LuGre", lugre}}) {
+    const RunResult run = run_linkage(make_incline(kInclineAngle, law, 1.0), Integrator::kDopri5, 1.0);
     findings.checks.push_back(
         compare(std::string("velocity of a block that slides down an incline from 1 m/s, after 1 s, ") + name,
-                "v_0 + g (sin a - mu_k cos a) t",
-                column(run_linkage(make_incline(kInclineAngle, law, 1.0), Integrator::kDopri5, 1.0), "q_m_s").back(),
-                expected, 2e-5, "m/s", "LuGre's friction is whole only after 3e-6 m; steps of 1e-10"));
-  lugre = published_law();
+                "v_0 + g (sin a - mu_k cos a) t", column(run, "q_m_s").back(), expected, 2e-5, "m/s",
+                "LuGre's friction is whole only after 3e-6 m; steps of 1e-10"));
+  }
+}
+
+void add_sticking(Findings& findings) {
+  FrictionParameters lugre = published_law();
   lugre.sigma_2 = 0.0;
   lugre.mu_s = 0.5;
   lugre.mu_k = 0.4;
@@ -75,18 +76,30 @@ Findings compute_joint_friction() {
   findings.checks.push_back(compare("friction that holds it", "-m g sin a",
                                     column(stuck, "q_friction_n").back(),
                                     -kBlockMass * kInclineGravity * std::sin(0.3), 1e-6, "N", kStepTolerance));
+}
+
+Check compare_belt() {
   const RunOptions options{.duration = 25.0,
                            .integrator = Integrator::kDopri5,
                            .relative_tolerance = 1e-10,
                            .absolute_tolerance = 1e-13,
                            .step_limit = 1'000'000};
   const RunResult belt = simulate_linkage(make_belt(), options, 0.0, {});
-  findings.checks.push_back(compare(
+  return compare(
       "stick-slip of 1 kg in a joint without play under 1 N, spring 2 N/m pulled at 0.1 m/s: position after 25 s",
       "a program of its own for this experiment: the law for one direction, 80-bit numbers, Fehlberg 7(8) at "
       "1e-15",
       column(belt, "block_m").back(), 1.9088391992, 1e-9, "m",
-      "the reference is known to ten decimals; dopri5 at a tolerance of 1e-10"));
+      "the reference is known to ten decimals; dopri5 at a tolerance of 1e-10");
+}
+
+}  // namespace
+
+Findings compute_joint_friction() {
+  Findings findings;
+  add_sliding_down(findings);
+  add_sticking(findings);
+  findings.checks.push_back(compare_belt());
   return findings;
 }
 
