@@ -17,8 +17,9 @@ namespace validation {
 
 namespace {
 
-constexpr double kSocketSpeed = 0.3;  // [m/s]
-constexpr double kSwing = 0.02;       // amplitude, [rad]
+constexpr double kSocketSpeed = 0.3;                     // [m/s]
+constexpr double kSwing = 0.02;                          // amplitude, [rad]
+constexpr double kCircleAngle = std::numbers::pi / 3.0;  // from the lowest point, [rad]
 
 Eigen::Vector3d vector_at(const RunResult& run, std::size_t sample, const char* ending) {
   Eigen::Vector3d v;
@@ -65,26 +66,40 @@ Check compare_swing(const char* how, const ClearanceParameters& socket, double i
                  "the bristle gives by 1e-4 of the way; zeros between samples of 0.2 ms");
 }
 
-/// A ball that rolls around in a horizontal circle, at 60 degrees from the lowest point.
-void compare_circle(Findings& findings) {
-  ClearanceParameters socket = make_socket();
-  socket.friction = make_stiff_friction(0.8);
-  const double angle = std::numbers::pi / 3.0, s = std::sin(angle), c = std::cos(angle);
+/// Horizontal circle in which a ball rolls around.
+struct RollingCircle {
+  double R;     ///< way of the ball's centre from the socket's, [m]
+  double rate;  ///< of the angle around the vertical, [rad/s]
+};
+
+RollingCircle find_rolling_circle() {
+  const double s = std::sin(kCircleAngle), c = std::cos(kCircleAngle);
   double R = kSocketPlay, rate = 0.0;
   for (int pass = 0; pass < 20; ++pass) {  // the normal force bends the radius
     rate = std::sqrt(5.0 / 7.0 * kStandardGravity / (R * c));
     R = kSocketPlay + find_depth(kLooseMass * (kStandardGravity * c + R * s * s * rate * rate));
   }
+  return {R, rate};
+}
+
+Linkage make_circling_ball(double R, double rate) {
+  ClearanceParameters socket = make_socket();
+  socket.friction = make_stiff_friction(0.8);
+  const double s = std::sin(kCircleAngle), c = std::cos(kCircleAngle);
   const double v = R * s * rate;  // along -z at the start, where the ball is at +x
   const double turn = v / kBallRadius;
   // w = v x n / r_j with n = (s, -c, 0)
-  const Linkage circling = make_loose_body(
+  return make_loose_body(
       JointKind::kSpherical, socket,
       {{{R * s, 0.0}, {-R * c, 0.0}, {0.0, -v}, {0.0, 0.0}, {0.0, -s * turn}, {0.0, -c * turn}}},
       {0.0, -kStandardGravity, 0.0});
-  const RunResult run = run_linkage(circling, Integrator::kRadau5, 0.5, 2000.0);
+}
+
+void compare_circle(Findings& findings) {
+  const auto [R, rate] = find_rolling_circle();
+  const RunResult run = run_linkage(make_circling_ball(R, rate), Integrator::kRadau5, 0.5, 2000.0);
   double off = 0.0;
-  for (const double y : column(run, "y_m")) off = std::max(off, std::abs(y + R * c));
+  for (const double y : column(run, "y_m")) off = std::max(off, std::abs(y + R * std::cos(kCircleAngle)));
   findings.checks.push_back(limit("height of a ball that rolls in a horizontal circle, against the start",
                                   "a ball that does not spin about the normal is a pendulum under 5/7 g", off,
                                   1e-6, "m", "the bristle is unbent at the start"));
@@ -94,12 +109,14 @@ void compare_circle(Findings& findings) {
                                     "the bristle is unbent at the start"));
 }
 
-}  // namespace
-
-Findings compute_ball_impacts() {
-  Findings findings;
+ClearanceParameters make_socket_with_losses() {
   ClearanceParameters socket = make_socket();
   socket.chi = 0.75 * (1.0 - 0.25);
+  return socket;
+}
+
+void add_impacts_from_the_middle(Findings& findings) {
+  const ClearanceParameters socket = make_socket_with_losses();
   const double e = rebound_ratio(socket.chi);
   const Eigen::Vector3d along = Eigen::Vector3d(1.0, 2.0, -2.0) / 3.0 * kSocketSpeed;
   const Linkage bouncing = make_loose_body(
@@ -112,10 +129,12 @@ Findings compute_ball_impacts() {
         compare("speed of a ball after " + std::to_string(n) + " impacts from the middle",
                 "e^n v, c (1 + e) = ln((1 + c) / (1 - c e))", speeds.at(n - 1),
                 std::pow(e, static_cast<double>(n)) * kSocketSpeed, 1e-8, "m/s", kStepTolerance));
+}
 
+void add_impacts_beside_the_middle(Findings& findings) {
   const Eigen::Vector3d aside(0.0, 5e-3, 0.0), v(0.5, 0.0, 0.3), L = aside.cross(v);
   const Linkage around = make_loose_body(
-      JointKind::kSpherical, socket,
+      JointKind::kSpherical, make_socket_with_losses(),
       {{{aside.x(), v.x()}, {aside.y(), v.y()}, {aside.z(), v.z()}, {}, {}, {}}}, Eigen::Vector3d::Zero());
   const RunResult path = run_linkage(around, Integrator::kDopri5, 0.4, 1000.0);
   double off = 0.0;
@@ -126,6 +145,14 @@ Findings compute_ball_impacts() {
             "constant: the force is central", off, 1e-12, "m^2/s", kStepTolerance));
   findings.checks.push_back(limit("energy residual of its run", "0",
                                   metric_of(around, path, "energy_residual"), 1e-8, "1", kStepTolerance));
+}
+
+}  // namespace
+
+Findings compute_ball_impacts() {
+  Findings findings;
+  add_impacts_from_the_middle(findings);
+  add_impacts_beside_the_middle(findings);
   return findings;
 }
 

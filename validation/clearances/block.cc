@@ -54,34 +54,76 @@ double find_moment_of_piston(double angle) {
   return make_cylinder().K * std::pow(delta, 1.5) * half * std::cos(angle);
 }
 
+/// One of the two pairs of walls that a block meets in its slot.
+struct Walls {
+  const char* axis;  ///< across them
+  std::size_t freedom;
+  double play;  ///< [m]
+};
+
+/// Speeds of a block at the middle of its slot, after each impact.
+std::vector<double> list_crossing_speeds(const RunResult& run, const std::string& axis) {
+  const std::vector<double>& x = column(run, axis + "_m");
+  std::vector<double> speeds;
+  for (std::size_t k = 1; k < x.size(); ++k)
+    if (x[k - 1] * x[k] < 0.0) speeds.push_back(std::abs(column(run, axis + "_m_s")[k]));
+  return speeds;
+}
+
+void add_impacts_on_walls(Findings& findings, const Walls& walls) {
+  ClearanceParameters slot = make_slot();
+  slot.chi = 0.75 * (1.0 - 0.25);
+  const double e = rebound_ratio(slot.chi);
+  LooseStarts starts{};
+  starts[walls.freedom].rate = kWallSpeed;
+  const Linkage bouncing = make_loose_body(JointKind::kPrismatic, slot, starts, Eigen::Vector3d::Zero());
+  const double across = 2.0 * walls.play / kWallSpeed;  // time at the first speed, [s]
+  const RunResult run = run_linkage(bouncing, Integrator::kDopri5, 6.0 * across, 1e4);
+  const std::string axis = walls.axis;
+  const std::vector<double> speeds = list_crossing_speeds(run, axis);
+  for (const std::size_t n : {1, 2, 3})
+    findings.checks.push_back(compare(
+        "speed of a block after " + std::to_string(n) + " impacts on the walls across " + axis, "e^n v",
+        speeds.at(n - 1), std::pow(e, static_cast<double>(n)) * kWallSpeed, 1e-8, "m/s", kStepTolerance));
+}
+
+/// A block that rests on a wall of its slot, at the start of its way down.
+Linkage make_block_on_slope() {
+  const double s = std::sin(kSlopeAngle), c = std::cos(kSlopeAngle);
+  ClearanceParameters slot = make_slot();
+  slot.friction = make_stiff_friction(kSlopeMu);
+  slot.damping = 100.0;
+  const double depth = std::pow(kLooseMass * kStandardGravity * c / (4.0 * slot.K), 2.0 / 3.0);
+  return make_loose_body(JointKind::kPrismatic, slot, {{{-kSlotPlay - depth}, {}, {}, {}, {}, {}}},
+                         {-kStandardGravity * c, 0.0, kStandardGravity * s});
+}
+
+void add_block_on_slope(Findings& findings) {
+  const Linkage incline = make_block_on_slope();
+  const RunResult slides = run_linkage(incline, Integrator::kRadau5, 0.5);
+  const double s = std::sin(kSlopeAngle), c = std::cos(kSlopeAngle);
+  findings.checks.push_back(compare("acceleration of a block down its slot with friction",
+                                    "g (sin a - mu cos a)", column(slides, "z_m_s2").back(),
+                                    kStandardGravity * (s - kSlopeMu * c), 1e-5, "m/s^2",
+                                    "its corners have come to rest in 0.5 s"));
+  findings.checks.push_back(limit("energy residual of its run", "0",
+                                  metric_of(incline, slides, "energy_residual"), 1e-7, "1", kStepTolerance));
+}
+
+Check compare_falling_piston() {
+  const Linkage falling =
+      make_loose_body(JointKind::kCylindrical, make_cylinder(), {}, {0.0, 0.0, -kStandardGravity});
+  return compare("way of a piston that falls along its cylinder in 0.5 s", "-g t^2 / 2",
+                 column(run_linkage(falling, Integrator::kDopri5, 0.5), "z_m").back(),
+                 -0.5 * kStandardGravity * 0.25, 1e-9, "m", kStepTolerance);
+}
+
 }  // namespace
 
 Findings compute_block_impacts() {
   Findings findings;
-  struct Wall {
-    const char* axis;
-    std::size_t freedom;
-    double play;
-  };
-  for (const Wall& wall : {Wall{"x", 0, kSlotPlay}, Wall{"y", 1, 2.0 * kSlotPlay}}) {
-    ClearanceParameters slot = make_slot();
-    slot.chi = 0.75 * (1.0 - 0.25);
-    const double e = rebound_ratio(slot.chi);
-    LooseStarts starts{};
-    starts[wall.freedom].rate = kWallSpeed;
-    const Linkage bouncing = make_loose_body(JointKind::kPrismatic, slot, starts, Eigen::Vector3d::Zero());
-    const double across = 2.0 * wall.play / kWallSpeed;  // time at the first speed, [s]
-    const RunResult run = run_linkage(bouncing, Integrator::kDopri5, 6.0 * across, 1e4);
-    const std::string axis = wall.axis;
-    const std::vector<double>& x = column(run, axis + "_m");
-    std::vector<double> speeds;
-    for (std::size_t k = 1; k < x.size(); ++k)
-      if (x[k - 1] * x[k] < 0.0) speeds.push_back(std::abs(column(run, axis + "_m_s")[k]));
-    for (const std::size_t n : {1, 2, 3})
-      findings.checks.push_back(compare(
-          "speed of a block after " + std::to_string(n) + " impacts on the walls across " + axis, "e^n v",
-          speeds.at(n - 1), std::pow(e, static_cast<double>(n)) * kWallSpeed, 1e-8, "m/s", kStepTolerance));
-  }
+  add_impacts_on_walls(findings, {"x", 0, kSlotPlay});
+  add_impacts_on_walls(findings, {"y", 1, 2.0 * kSlotPlay});
   return findings;
 }
 
@@ -102,26 +144,8 @@ Findings compute_tilted_bodies() {
 
 Findings compute_sliding_bodies() {
   Findings findings;
-  const double s = std::sin(kSlopeAngle), c = std::cos(kSlopeAngle);
-  ClearanceParameters slot = make_slot();
-  slot.friction = make_stiff_friction(kSlopeMu);
-  slot.damping = 100.0;
-  const double depth = std::pow(kLooseMass * kStandardGravity * c / (4.0 * slot.K), 2.0 / 3.0);
-  const Linkage incline =
-      make_loose_body(JointKind::kPrismatic, slot, {{{-kSlotPlay - depth}, {}, {}, {}, {}, {}}},
-                      {-kStandardGravity * c, 0.0, kStandardGravity * s});
-  const RunResult slides = run_linkage(incline, Integrator::kRadau5, 0.5);
-  findings.checks.push_back(compare("acceleration of a block down its slot with friction",
-                                    "g (sin a - mu cos a)", column(slides, "z_m_s2").back(),
-                                    kStandardGravity * (s - kSlopeMu * c), 1e-5, "m/s^2",
-                                    "its corners have come to rest in 0.5 s"));
-  findings.checks.push_back(limit("energy residual of its run", "0",
-                                  metric_of(incline, slides, "energy_residual"), 1e-7, "1", kStepTolerance));
-  const Linkage falling =
-      make_loose_body(JointKind::kCylindrical, make_cylinder(), {}, {0.0, 0.0, -kStandardGravity});
-  findings.checks.push_back(compare("way of a piston that falls along its cylinder in 0.5 s", "-g t^2 / 2",
-                                    column(run_linkage(falling, Integrator::kDopri5, 0.5), "z_m").back(),
-                                    -0.5 * kStandardGravity * 0.25, 1e-9, "m", kStepTolerance));
+  add_block_on_slope(findings);
+  findings.checks.push_back(compare_falling_piston());
   return findings;
 }
 

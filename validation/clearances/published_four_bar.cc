@@ -103,44 +103,57 @@ std::vector<LinkageFreedom> freedoms_at_rest(const std::string& joint, double tu
 }
 
 /// The crank with a controller that follows its target and a torque over time beside it.
+LinkageJoint make_controlled_crank(const TableCurve& feedforward) {
+  const Controller controller{.target = kTarget,
+                              .controlled = Controller::Controlled::kPosition,
+                              .proportional = kGain * kBandwidth,
+                              .derivative = kGain};
+  return {.name = "crank",
+          .from = kGroundName,
+          .to = "crank",
+          .placement = {},
+          .freedoms = {{.name = "crank",
+                        .start = kStartAngles[0],
+                        .start_rate = 0.0,
+                        .actuator = controller,
+                        .load = ForceLaw{.law = feedforward}}}};
+}
+
+LinkageJoint make_third_joint() {
+  return {.name = "third",
+          .from = kGroundName,
+          .to = "rocker",
+          .placement = {.p = {kGroundBar, 0.0, 0.0}},
+          .freedoms = freedoms_at_rest("third", kStartAngles[2]),
+          .clearance = make_loose_joint()};
+}
+
+LinkageJoint make_second_joint() {
+  return {.name = "second",
+          .from = "rocker",
+          .to = "coupler",
+          .placement = {.p = {kRockerBar, 0.0, 0.0}},
+          .freedoms = freedoms_at_rest("second", kStartAngles[1] - kStartAngles[2]),
+          .clearance = make_loose_joint()};
+}
+
+LinkageJoint make_first_joint() {
+  return {.name = "first",
+          .from = "coupler",
+          .to = "crank",
+          .placement = {.p = {-kCouplerBar, 0.0, 0.0}},
+          .cut = true,
+          .to_placement = {.p = {kCrankBar, 0.0, 0.0}},
+          .clearance = make_loose_joint()};
+}
+
 Linkage make_four_bar(const TableCurve& feedforward) {
   Linkage linkage;
   linkage.gravity_W = {0.0, -kGravity, 0.0};
   linkage.bodies = {make_uniform_bar("crank", kCrankBar, 1.0), make_uniform_bar("coupler", kCouplerBar, -1.0),
                     make_uniform_bar("rocker", kRockerBar, 1.0)};
-  const Controller controller{.target = kTarget,
-                              .controlled = Controller::Controlled::kPosition,
-                              .proportional = kGain * kBandwidth,
-                              .derivative = kGain};
-  linkage.joints = {
-      {.name = "crank",
-       .from = kGroundName,
-       .to = "crank",
-       .placement = {},
-       .freedoms = {{.name = "crank",
-                     .start = kStartAngles[0],
-                     .start_rate = 0.0,
-                     .actuator = controller,
-                     .load = ForceLaw{.law = feedforward}}}},
-      {.name = "third",
-       .from = kGroundName,
-       .to = "rocker",
-       .placement = {.p = {kGroundBar, 0.0, 0.0}},
-       .freedoms = freedoms_at_rest("third", kStartAngles[2]),
-       .clearance = make_loose_joint()},
-      {.name = "second",
-       .from = "rocker",
-       .to = "coupler",
-       .placement = {.p = {kRockerBar, 0.0, 0.0}},
-       .freedoms = freedoms_at_rest("second", kStartAngles[1] - kStartAngles[2]),
-       .clearance = make_loose_joint()},
-      {.name = "first",
-       .from = "coupler",
-       .to = "crank",
-       .placement = {.p = {-kCouplerBar, 0.0, 0.0}},
-       .cut = true,
-       .to_placement = {.p = {kCrankBar, 0.0, 0.0}},
-       .clearance = make_loose_joint()}};
+  linkage.joints = {make_controlled_crank(feedforward), make_third_joint(), make_second_joint(),
+                    make_first_joint()};
   return linkage;
 }
 
@@ -159,11 +172,8 @@ TableCurve tabulate_feedforward(const CrankMotion& crank) {
   return TableCurve(times, torques, TableInterpolation::kMonotoneCubic);
 }
 
-/// The controller's feedforward depends on the crank's motion, a table on time alone: the torque is that
-/// along the motion of the run before. At first the error decays by exp(-lambda t).
-/// @param change  out: of the crank's angle by the last run, [rad]
-RunResult run_four_bar(double& change) {
-  constexpr int kRuns = 6;  // each is ten times nearer than the one before
+/// Motion of a crank whose error against the target decays by exp(-lambda t).
+CrankMotion guess_crank_motion() {
   CrankMotion crank;
   for (int k = 0; k <= static_cast<int>(kFourBarDuration * kFourBarRate); ++k) {
     const double t = k / kFourBarRate, error = kStartAngles[0] * std::exp(-kBandwidth * t);
@@ -171,14 +181,28 @@ RunResult run_four_bar(double& change) {
     crank.q.push_back(target.q + error);
     crank.v.push_back(target.qd - kBandwidth * error);
   }
+  return crank;
+}
+
+/// Run with the feedforward along a motion of the crank.
+RunResult simulate_four_bar(const CrankMotion& crank) {
+  return run_linkage(make_four_bar(tabulate_feedforward(crank)),
+                     RunOptions{.duration = kFourBarDuration,
+                                .output_rate = kFourBarRate,
+                                .integrator = Integrator::kRadau5,
+                                .relative_tolerance = 1e-7,
+                                .absolute_tolerance = 1e-7});
+}
+
+/// The controller's feedforward depends on the crank's motion, a table on time alone: the torque is that
+/// along the motion of the run before.
+/// @param change  out: of the crank's angle by the last run, [rad]
+RunResult run_four_bar(double& change) {
+  constexpr int kRuns = 6;  // each is ten times nearer than the one before
+  CrankMotion crank = guess_crank_motion();
   RunResult run;
   for (int k = 0; k < kRuns; ++k) {
-    run = run_linkage(make_four_bar(tabulate_feedforward(crank)),
-                      RunOptions{.duration = kFourBarDuration,
-                                 .output_rate = kFourBarRate,
-                                 .integrator = Integrator::kRadau5,
-                                 .relative_tolerance = 1e-7,
-                                 .absolute_tolerance = 1e-7});
+    run = simulate_four_bar(crank);
     const CrankMotion next{column(run, "crank_rad"), column(run, "crank_rad_s")};
     change = 0.0;
     for (std::size_t i = 0; i < next.q.size(); ++i)
@@ -235,6 +259,25 @@ constexpr FourBarRow kFourBarRows[] = {
      .play = {-2.382676e-3, -4.395836e-3, -1.758276e-3, -4.680762e-3, -3.791603e-3, 3.259594e-3}},
 };
 
+constexpr const char* kBarNames[] = {"crank", "coupler", "rocker"};
+constexpr const char* kJointNames[] = {"crank and coupler", "coupler and rocker", "rocker and ground"};
+
+void add_instant(Findings& findings, const FourBarState& state, const FourBarRow& row) {
+  constexpr const char* kWhy = "rigid impacts there, stiff ones here; steps of first order there";
+  const std::string at = " at " + std::to_string(row.t).substr(0, 3) + " s, four-bar with play";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string bar = kBarNames[i], joint = kJointNames[i];
+    findings.checks.push_back(compare("angle of the " + bar + at, kSource, state.angles[i], row.angles[i],
+                                      1e-4, "rad", kWhy));
+    findings.checks.push_back(compare("speed of the " + bar + at, kSource, state.speeds[i], row.speeds[i],
+                                      0.01, "rad/s", kWhy));
+    const double off = std::remainder(
+        state.play_angles[i] - std::atan2(row.play[2 * i + 1], row.play[2 * i]), 2.0 * std::numbers::pi);
+    findings.checks.push_back(limit("error of the direction of the play between " + joint + at, kSource,
+                                    std::abs(off), 0.02, "rad", kWhy));
+  }
+}
+
 }  // namespace
 
 Findings compute_published_four_bar() {
@@ -243,24 +286,7 @@ Findings compute_published_four_bar() {
   const RunResult run = run_four_bar(change);
   findings.checks.push_back(limit("change of the crank's angle by the last run of a controlled four-bar",
                                   "0", change, 1e-6, "rad", "a hundredth of what is compared"));
-  constexpr const char* kBars[] = {"crank", "coupler", "rocker"};
-  constexpr const char* kJoints[] = {"crank and coupler", "coupler and rocker", "rocker and ground"};
-  constexpr const char* kWhy = "rigid impacts there, stiff ones here; steps of first order there";
-  for (const FourBarRow& row : kFourBarRows) {
-    const FourBarState state = find_state(run, row.t);
-    const std::string at = " at " + std::to_string(row.t).substr(0, 3) + " s, four-bar with play";
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::string bar = kBars[i], joint = kJoints[i];
-      findings.checks.push_back(compare("angle of the " + bar + at, kSource, state.angles[i], row.angles[i],
-                                        1e-4, "rad", kWhy));
-      findings.checks.push_back(compare("speed of the " + bar + at, kSource, state.speeds[i], row.speeds[i],
-                                        0.01, "rad/s", kWhy));
-      const double off = std::remainder(
-          state.play_angles[i] - std::atan2(row.play[2 * i + 1], row.play[2 * i]), 2.0 * std::numbers::pi);
-      findings.checks.push_back(limit("error of the direction of the play between " + joint + at, kSource,
-                                      std::abs(off), 0.02, "rad", kWhy));
-    }
-  }
+  for (const FourBarRow& row : kFourBarRows) add_instant(findings, find_state(run, row.t), row);
   return findings;
 }
 
