@@ -77,37 +77,44 @@ double shallow_ring_rebound(double k_r) {
   return e_slow - (e_fast - e_slow) * slow.depth / (fast.depth - slow.depth);
 }
 
+Table make_ring_impact_table() {
+  return {.caption =
+              "One impact of a mass of 0.8 kg at 0.05 m/s, k_r = 0.9, no friction. Each element has the "
+              "damping of its own onset, and those at the "
+              "edge of the arc meet the bore later and slower: the rebound is 0.9119 in place of 0.9132. "
+              "The ring's K is divided by "
+              "sqrt(r_b / r_j), so that its stiffness is the continuum's.",
+          .head = {"contact", "towards", "rebound ratio", "largest force [N]", "largest penetration [um]",
+                   "contact time [us]"},
+          .rows = {},
+          .keys = 2};
+}
+
+void add_ring_impact(Table& table, const std::string& contact, const char* towards, const Impact& impact) {
+  table.rows.push_back({contact, towards, number(impact.speed / kRingSpeed, 6), number(impact.force, 4),
+                        number(1e6 * impact.depth, 4), number(1e6 * impact.contact_time, 5)});
+}
+
+Check compare_shallow_rebound(double k_r) {
+  return compare(
+      "rebound ratio of a ring of 1440 elements, k_r = " + number(k_r) + ", as the depth goes to zero",
+      "a shallow arc of infinitely many elements, each with its own onset rate, by other steps",
+      shallow_ring_rebound(k_r), ring_rebound(0.75 * (1.0 - k_r * k_r)), 3e-6, "1",
+      "second order in the depth, and 1440 elements: 1e-6 each");
+}
+
 }  // namespace
 
 Findings compute_impacts_of_a_ring() {
   Findings findings;
-  Table table{.caption =
-                  "One impact of a mass of 0.8 kg at 0.05 m/s, k_r = 0.9, no friction. Each element has the "
-                  "damping of its own onset, and those at the "
-                  "edge of the arc meet the bore later and slower: the rebound is 0.9119 in place of 0.9132. "
-                  "The ring's K is divided by "
-                  "sqrt(r_b / r_j), so that its stiffness is the continuum's.",
-              .head = {"contact", "towards", "rebound ratio", "largest force [N]", "largest penetration [um]",
-                       "contact time [us]"},
-              .rows = {},
-              .keys = 2};
-  const auto add = [&table](const std::string& contact, const std::string& towards, const Impact& impact) {
-    table.rows.push_back({contact, towards, number(impact.speed / kRingSpeed, 6), number(impact.force, 4),
-                          number(1e6 * impact.depth, 4), number(1e6 * impact.contact_time, 5)});
-  };
-  const Impact continuum = simulate_ring_impact(0, 0.0);
-  add("continuum", "", continuum);
+  Table table = make_ring_impact_table();
+  add_ring_impact(table, "continuum", "", simulate_ring_impact(0, 0.0));
   for (const int n_ce : {36, 72, 180, 720})
     for (const double pitches : {0.0, 0.5})
-      add(std::to_string(n_ce) + " elements", pitches == 0.0 ? "an element" : "between two",
-          simulate_ring_impact(n_ce, pitches));
+      add_ring_impact(table, std::to_string(n_ce) + " elements",
+                      pitches == 0.0 ? "an element" : "between two", simulate_ring_impact(n_ce, pitches));
   findings.tables.push_back(std::move(table));
-  for (const double k_r : {0.9, 0.3})
-    findings.checks.push_back(compare(
-        "rebound ratio of a ring of 1440 elements, k_r = " + number(k_r) + ", as the depth goes to zero",
-        "a shallow arc of infinitely many elements, each with its own onset rate, by other steps",
-        shallow_ring_rebound(k_r), ring_rebound(0.75 * (1.0 - k_r * k_r)), 3e-6, "1",
-        "second order in the depth, and 1440 elements: 1e-6 each"));
+  for (const double k_r : {0.9, 0.3}) findings.checks.push_back(compare_shallow_rebound(k_r));
   return findings;
 }
 

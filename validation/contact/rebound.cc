@@ -98,17 +98,18 @@ double simulate_face_rebound(double k_r, double gap, const RunOptions& steps) {
 }
 
 /// What laws return with a restitution coefficient of 0, as the help of that parameter says.
+struct Returned {
+  const char* name;
+  NormalForceLaw law;
+  double e;
+};
+constexpr Returned kReturned[] = {{"Lankarani-Nikravesh", NormalForceLaw::kLankaraniNikravesh, 0.66},
+                                  {"Hunt-Crossley", NormalForceLaw::kHuntCrossley, 0.49},
+                                  {"Herbert-McWhannell", NormalForceLaw::kHerbertMcWhannell, 0.49},
+                                  {"Lee-Wang", NormalForceLaw::kLeeWang, 0.66},
+                                  {"Carvalho-Martins", NormalForceLaw::kCarvalhoMartins, 0.06}};
+
 void add_rebounds_of_no_restitution(Findings& findings) {
-  struct Returned {
-    const char* name;
-    NormalForceLaw law;
-    double e;
-  };
-  constexpr Returned kReturned[] = {{"Lankarani-Nikravesh", NormalForceLaw::kLankaraniNikravesh, 0.66},
-                                    {"Hunt-Crossley", NormalForceLaw::kHuntCrossley, 0.49},
-                                    {"Herbert-McWhannell", NormalForceLaw::kHerbertMcWhannell, 0.49},
-                                    {"Lee-Wang", NormalForceLaw::kLeeWang, 0.66},
-                                    {"Carvalho-Martins", NormalForceLaw::kCarvalhoMartins, 0.06}};
   for (const Returned& returned : kReturned) {
     ClearanceParameters joint = one_ring();
     joint.chi = calc_damping_factor(returned.law, 0.0);
@@ -121,6 +122,18 @@ void add_rebounds_of_no_restitution(Findings& findings) {
   }
 }
 
+void add_face_rebound(Findings& findings, Table& table, double k_r) {
+  const double e = rebound_ratio(0.75 * (1.0 - k_r * k_r));
+  const std::string at = " at a face of the bearing, K_a = 1e8 N/m, k_r = " + number(k_r);
+  const double found = simulate_face_rebound(k_r, kReboundGap, kTightSteps);
+  findings.checks.push_back(compare(
+      "rebound ratio" + at, "c (1 + e) = ln((1 + c) / (1 - c e)), c = 3/4 (1 - k_r^2)", found, e, 1e-8, "1",
+      "a tolerance of 1e-13 makes the step of the onset so short that its error is no larger"));
+  Largest error;
+  for (int k = 0; k < 20; ++k) error.take(simulate_face_rebound(k_r, 30e-6 + 1.37e-6 * k, {}) - e);
+  table.rows.push_back({number(k_r), number(found, 8), number(e, 8), number(error.value(), 2)});
+}
+
 void add_face_rebounds(Findings& findings) {
   Table table{.caption =
                   "Rebound of a mass of 0.8 kg that meets a face of the bearing at 0.1 m/s, K_a = 1e8 N/m. "
@@ -131,17 +144,7 @@ void add_face_rebounds(Findings& findings) {
                        "face: default tolerances, largest error for 20 gaps"},
               .rows = {},
               .reproducible_to = 0.1};
-  for (const double k_r : {0.9, 0.5, 0.3}) {
-    const double e = rebound_ratio(0.75 * (1.0 - k_r * k_r));
-    const std::string at = " at a face of the bearing, K_a = 1e8 N/m, k_r = " + number(k_r);
-    const double found = simulate_face_rebound(k_r, kReboundGap, kTightSteps);
-    findings.checks.push_back(compare(
-        "rebound ratio" + at, "c (1 + e) = ln((1 + c) / (1 - c e)), c = 3/4 (1 - k_r^2)", found, e, 1e-8, "1",
-        "a tolerance of 1e-13 makes the step of the onset so short that its error is no larger"));
-    Largest error;
-    for (int k = 0; k < 20; ++k) error.take(simulate_face_rebound(k_r, 30e-6 + 1.37e-6 * k, {}) - e);
-    table.rows.push_back({number(k_r), number(found, 8), number(e, 8), number(error.value(), 2)});
-  }
+  for (const double k_r : {0.9, 0.5, 0.3}) add_face_rebound(findings, table, k_r);
   findings.tables.push_back(std::move(table));
 }
 
@@ -159,6 +162,59 @@ double largest_error(double k_r, const RunOptions& steps) {
     largest.take(e - rebound_ratio(joint.chi));
   }
   return largest.value();
+}
+
+/// @param e  rebound ratio of the closed form  @returns that of the engine
+double add_rebound(Findings& findings, Form form, double k_r, double e) {
+  form.joint.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, k_r);
+  const Impact impact = simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap,
+                                        kReboundSpeed, form.contact_time);
+  const double found = impact.speed / kReboundSpeed;
+  const std::string at = ", k_r = " + number(k_r) + ", " + form.name;
+  findings.checks.push_back(compare(
+      "rebound ratio" + at, "c (1 + e) = ln((1 + c) / (1 - c e)), c = 3/4 (1 - k_r^2)", found, e, 1e-8, "1",
+      "some hundred steps with a tolerance of 1e-13; contact begins up to 1e-10 m late"));
+  const double loss = 0.5 * kReboundMass * kReboundSpeed * kReboundSpeed * (1.0 - e * e);
+  findings.checks.push_back(compare(
+      "impact loss in the energy account" + at, "m v0^2 (1 - e^2) / 2 with the e of the closed form",
+      1e3 * impact.loss, 1e3 * loss, 3e-8 * 1e3 * loss, "mJ",
+      "3e-8 of it: 2 e de / (1 - e^2) for the rebound's de"));
+  return found;
+}
+
+constexpr RunOptions kDopri5Steps{
+    .integrator = Integrator::kDopri5, .relative_tolerance = 1e-6, .absolute_tolerance = 1e-7};
+
+/// Rebounds with the steps of a study.
+void add_coarse_rebounds(Findings& findings, double k_r) {
+  const std::string at = "k_r = " + number(k_r) + ", 20 gaps";
+  const std::string reference = "closed form; contacts that begin anywhere in a step";
+  findings.checks.push_back(limit("rebound ratio with the default steps, " + at, reference,
+                                  largest_error(k_r, {}), 2e-4, "1", "some ten times the tolerance, 1.5e-5"));
+  findings.checks.push_back(limit("rebound ratio with dopri5, tolerances 1e-6 and 1e-7, " + at, reference,
+                                  largest_error(k_r, kDopri5Steps), 2e-5, "1",
+                                  "steps that end at the contact's ends; ten times that if they do not"));
+  findings.checks.push_back(
+      limit("rebound ratio with rk4 in steps of 1e-5 s, " + at, reference,
+            largest_error(k_r, {.integrator = Integrator::kRk4, .step = 1e-5}), 1.5e-4, "1",
+            "the contact begins inside a step: its onset rate is read there, by the cubic"));
+}
+
+void add_known_rebound(Findings& findings, Table& table, const KnownRebound& known) {
+  const double e = rebound_ratio(0.75 * (1.0 - known.k_r * known.k_r));
+  std::vector<std::string> row{number(known.k_r)};
+  Largest from_known;
+  for (const Form& form : forms()) {
+    const double found = add_rebound(findings, form, known.k_r, e);
+    from_known.take(found - known.e);
+    row.push_back(number(found, 8));
+  }
+  findings.checks.push_back(limit("rebound ratio, k_r = " + number(known.k_r) + ", both exponents",
+                                  "root of the same equation, known to four digits: " + number(known.e, 4),
+                                  from_known.value(), 5.1e-5, "1", "half of the last digit, and rounding"));
+  add_coarse_rebounds(findings, known.k_r);
+  row.insert(row.end(), {number(e, 8), number(known.e, 4)});
+  table.rows.push_back(row);
 }
 
 }  // namespace
@@ -185,50 +241,7 @@ Findings compute_rebounds() {
                   "speed before.",
               .head = {"k_r", "exponent 1.5", "exponent 1", "closed form", "known to four digits"},
               .rows = {}};
-  for (const KnownRebound& known : kKnown) {
-    const double c = 0.75 * (1.0 - known.k_r * known.k_r);
-    const double e = rebound_ratio(c);
-    std::vector<std::string> row{number(known.k_r)};
-    Largest from_known;
-    for (Form& form : forms()) {
-      form.joint.chi = calc_damping_factor(NormalForceLaw::kLankaraniNikravesh, known.k_r);
-      const Impact impact = simulate_impact(make_sliding_mass(form.joint, kReboundMass), kReboundGap,
-                                            kReboundSpeed, form.contact_time);
-      const double found = impact.speed / kReboundSpeed;
-      const std::string at = ", k_r = " + number(known.k_r) + ", " + form.name;
-      findings.checks.push_back(compare(
-          "rebound ratio" + at, "c (1 + e) = ln((1 + c) / (1 - c e)), c = 3/4 (1 - k_r^2)", found, e, 1e-8,
-          "1", "some hundred steps with a tolerance of 1e-13; contact begins up to 1e-10 m late"));
-      const double loss = 0.5 * kReboundMass * kReboundSpeed * kReboundSpeed * (1.0 - e * e);
-      findings.checks.push_back(compare("impact loss in the energy account" + at,
-                                        "m v0^2 (1 - e^2) / 2 with the e of the closed form",
-                                        1e3 * impact.loss, 1e3 * loss, 3e-8 * 1e3 * loss, "mJ",
-                                        "3e-8 of it: 2 e de / (1 - e^2) for the rebound's de"));
-      from_known.take(found - known.e);
-      row.push_back(number(found, 8));
-    }
-    findings.checks.push_back(limit("rebound ratio, k_r = " + number(known.k_r) + ", both exponents",
-                                    "root of the same equation, known to four digits: " + number(known.e, 4),
-                                    from_known.value(), 5.1e-5, "1", "half of the last digit, and rounding"));
-    const std::string reference = "closed form; contacts that begin anywhere in a step";
-    findings.checks.push_back(
-        limit("rebound ratio with the default steps, k_r = " + number(known.k_r) + ", 20 gaps", reference,
-              largest_error(known.k_r, {}), 2e-4, "1", "some ten times the tolerance, 1.5e-5"));
-    findings.checks.push_back(limit(
-        "rebound ratio with dopri5, tolerances 1e-6 and 1e-7, k_r = " + number(known.k_r) + ", 20 gaps",
-        reference,
-        largest_error(
-            known.k_r,
-            {.integrator = Integrator::kDopri5, .relative_tolerance = 1e-6, .absolute_tolerance = 1e-7}),
-        2e-5, "1", "steps that end at the contact's ends; ten times that if they do not"));
-    findings.checks.push_back(
-        limit("rebound ratio with rk4 in steps of 1e-5 s, k_r = " + number(known.k_r) + ", 20 gaps",
-              reference, largest_error(known.k_r, {.integrator = Integrator::kRk4, .step = 1e-5}), 1.5e-4,
-              "1", "the contact begins inside a step: its onset rate is read there, by the cubic"));
-    row.push_back(number(e, 8));
-    row.push_back(number(known.e, 4));
-    table.rows.push_back(row);
-  }
+  for (const KnownRebound& known : kKnown) add_known_rebound(findings, table, known);
   add_rebounds_of_no_restitution(findings);
   findings.checks.push_back(compare_floor());
   findings.tables.push_back(std::move(table));

@@ -62,29 +62,27 @@ void add_check(Findings& findings, const std::string& what, const std::string& r
       compare(what, reference, found, expected, relative * std::abs(expected), unit, why));
 }
 
+/// Force of a ring along x. @param offset  of the journal's axis at the ring, along x, [m]
+double press_ring(double offset) {
+  const double depth = std::abs(offset) - kClearance;
+  return depth > 0.0 ? -std::copysign(0.5 * two_element_levels().K * std::pow(depth, 1.5), offset) : 0.0;
+}
+
 /// Tilt about y in the plane of the offset: the rings are at x +- 10 mm sin(tilt), and press along x.
 void add_tilt_in_plane(Findings& findings, const char* name, double x, double tilt) {
-  const double K = two_element_levels().K;
-  const auto press = [&](double side) {  // signed force along x of the ring at that end
-    const double offset = x + side * kHalfLength * std::sin(tilt);
-    const double depth = std::abs(offset) - kClearance;
-    return depth > 0.0 ? -std::copysign(0.5 * K * std::pow(depth, 1.5), offset) : 0.0;
-  };
-  const double upper = press(1.0);
-  const double lower = press(-1.0);
+  const double upper = press_ring(x + kHalfLength * std::sin(tilt));
+  const double lower = press_ring(x - kHalfLength * std::sin(tilt));
   const Load load = engine_load(two_element_levels(), {x, 0.0, 0.0}, turn(tilt, Eigen::Vector3d::UnitY()));
   const std::string reference = "statics: K / 2 delta^1.5 of each ring, at its arm of 10 mm cos(tilt)";
   const std::string why = "rounding of the offset, 1e-19 m in 1e-6 m, and of the sine";
-  if (upper + lower != 0.0) {
-    add_check(findings, std::string("transverse force, journal tilted in the plane of its offset, ") + name,
-              reference, load.force.x(), upper + lower, 1e-9, "N", why);
-  } else {
+  const std::string at = std::string(", journal tilted in the plane of its offset, ") + name;
+  if (upper + lower != 0.0)
+    add_check(findings, "transverse force" + at, reference, load.force.x(), upper + lower, 1e-9, "N", why);
+  else
     findings.checks.push_back(
-        limit(std::string("transverse force, journal tilted in the plane of its offset, ") + name,
-              "statics: none", load.force.norm(), 1e-9, "N", why));
-  }
-  add_check(findings, std::string("moment, journal tilted in the plane of its offset, ") + name, reference,
-            load.moment.y(), (upper - lower) * kHalfLength * std::cos(tilt), 1e-9, "N m", why);
+        limit("transverse force" + at, "statics: none", load.force.norm(), 1e-9, "N", why));
+  add_check(findings, "moment" + at, reference, load.moment.y(),
+            (upper - lower) * kHalfLength * std::cos(tilt), 1e-9, "N m", why);
 }
 
 /// Tilt about x with an offset along x: the rings press at equal depth, in directions that open like
@@ -191,6 +189,84 @@ Load press_on_faces(double c_a, double z, double tilt) {
   return load;
 }
 
+void add_upright_levels(Findings& findings) {
+  const double force = two_element_levels().K * std::pow(2e-6, 1.5);
+  for (const int levels : {1, 2, 3, 5}) {
+    ClearanceParameters joint = two_element_levels();
+    joint.n_r = levels;
+    const Load load = engine_load(joint, {kClearance + 2e-6, 0.0, 0.0}, Eigen::Matrix3d::Identity());
+    add_check(findings, "force of an upright journal 2 um deep, " + std::to_string(levels) + " levels",
+              "K delta^1.5, shared by the levels", -load.force.x(), force, 1e-9, "N",
+              "rounding of the offset");
+  }
+}
+
+Check compare_inside_clearance() {
+  const Load inside =
+      engine_load(two_element_levels(), {0.9 * kClearance, 0.0, 0.0}, turn(1e-3, Eigen::Vector3d::UnitY()));
+  return limit(
+      "force and moment inside the clearance: tilt of 1 mrad, rings 15 um and 35 um short of the bore",
+      "none", inside.force.norm() + inside.moment.norm(), 0.0, "N", "no contact");
+}
+
+constexpr const char* kDepthRounding = "rounding of 10 mm in the depth";
+
+/// Load on an upright journal. @param z  of its place along the axis, [m]
+Load face_load_upright(double c_a, double z) {
+  return engine_load(faces_only(c_a), {0.0, 0.0, z}, Eigen::Matrix3d::Identity());
+}
+
+/// Load on a journal tilted about x.
+Load face_load_tilted(double c_a, double z, double tilt) {
+  return engine_load(faces_only(c_a), {0.0, 0.0, z}, turn(tilt, Eigen::Vector3d::UnitX()));
+}
+
+void add_face_depths(Findings& findings, double c_a) {
+  const std::string at = ", axial clearance " + number(1e6 * c_a) + " um";
+  for (const double beyond : {1e-6, -1e-6, 3e-6})
+    add_check(findings,
+              "axial force, journal " + number(1e6 * std::abs(beyond)) +
+                  " um beyond the clearance towards " + (beyond > 0.0 ? "+z" : "-z") + at,
+              "-K_a (z - c_a) at one face",
+              face_load_upright(c_a, beyond + std::copysign(c_a, beyond)).force.z(), -1e8 * beyond, 1e-9, "N",
+              kDepthRounding);
+}
+
+void add_faces_without_depth(Findings& findings) {
+  const Load free = face_load_upright(5e-6, 4.999e-6);
+  findings.checks.push_back(limit("axial force 1 nm short of the axial clearance of 5 um", "none",
+                                  free.force.norm() + free.moment.norm(), 0.0, "N", "no contact"));
+  findings.checks.push_back(limit("axial force of an upright journal in the middle, no axial clearance",
+                                  "none: both faces just touch", face_load_upright(0.0, 0.0).force.norm(),
+                                  0.0, "N", "touching without depth is no contact"));
+}
+
+struct TiltedFaces {
+  const char* name;
+  double c_a, z, tilt;  ///< [m], [m], [rad]
+};
+
+void add_tilted_faces(Findings& findings, const TiltedFaces& faces) {
+  const auto& [name, c_a, z, tilt] = faces;
+  const Load found = face_load_tilted(c_a, z, tilt);
+  const Load expected = press_on_faces(c_a, z, tilt);
+  const std::string reference = "statics of 16 points on both faces, K_a / 8 each";
+  add_check(findings, std::string("restoring moment of the faces, ") + name, reference, found.moment.x(),
+            expected.moment.x(), 1e-8, "N m", kDepthRounding);
+  if (z != 0.0)
+    add_check(findings, std::string("axial force of the faces, ") + name, reference, found.force.z(),
+              expected.force.z(), 1e-8, "N", kDepthRounding);
+}
+
+void add_small_tilt(Findings& findings) {
+  const double radius = 5e-3 - kClearance;
+  const double small = 1e-6;
+  add_check(findings, "restoring moment of the faces, no axial clearance, over a small tilt of 1 urad",
+            "-K_a r_j^2 / 2: half of each face's eight points, sum of sin^2 = 2",
+            face_load_tilted(0.0, 0.0, small).moment.x() / small, -0.5 * 1e8 * radius * radius, 1e-5,
+            "N m/rad", "second order in the tilt: L_b / r_j times 1e-6");
+}
+
 }  // namespace
 
 Findings compute_tilted_journal() {
@@ -203,70 +279,19 @@ Findings compute_tilted_journal() {
                     std::asin((kClearance + 2e-6) / kHalfLength));
   add_tilt_across(findings);
   add_tilted_elements(findings);
-  const double force = two_element_levels().K * std::pow(2e-6, 1.5);
-  for (const int levels : {1, 2, 3, 5}) {
-    ClearanceParameters joint = two_element_levels();
-    joint.n_r = levels;
-    const Load load = engine_load(joint, {kClearance + 2e-6, 0.0, 0.0}, Eigen::Matrix3d::Identity());
-    add_check(findings, "force of an upright journal 2 um deep, " + std::to_string(levels) + " levels",
-              "K delta^1.5, shared by the levels", -load.force.x(), force, 1e-9, "N",
-              "rounding of the offset");
-  }
-  const Load inside =
-      engine_load(two_element_levels(), {0.9 * kClearance, 0.0, 0.0}, turn(1e-3, Eigen::Vector3d::UnitY()));
-  findings.checks.push_back(
-      limit("force and moment inside the clearance: tilt of 1 mrad, rings 15 um and 35 um short of the bore",
-            "none", inside.force.norm() + inside.moment.norm(), 0.0, "N", "no contact"));
+  add_upright_levels(findings);
+  findings.checks.push_back(compare_inside_clearance());
   return findings;
 }
 
 Findings compute_axial_faces() {
   Findings findings;
-  const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
-  const std::string rounding = "rounding of 10 mm in the depth";
-  for (const double c_a : {0.0, 5e-6}) {
-    const std::string at = ", axial clearance " + number(1e6 * c_a) + " um";
-    for (const double beyond : {1e-6, -1e-6, 3e-6})
-      add_check(
-          findings,
-          "axial force, journal " + number(1e6 * std::abs(beyond)) + " um beyond the clearance towards " +
-              (beyond > 0.0 ? "+z" : "-z") + at,
-          "-K_a (z - c_a) at one face",
-          engine_load(faces_only(c_a), {0.0, 0.0, beyond + std::copysign(c_a, beyond)}, upright).force.z(),
-          -1e8 * beyond, 1e-9, "N", rounding);
-  }
-  const Load free = engine_load(faces_only(5e-6), {0.0, 0.0, 4.999e-6}, upright);
-  findings.checks.push_back(limit("axial force 1 nm short of the axial clearance of 5 um", "none",
-                                  free.force.norm() + free.moment.norm(), 0.0, "N", "no contact"));
-  const Load between = engine_load(faces_only(0.0), {0.0, 0.0, 0.0}, upright);
-  findings.checks.push_back(limit("axial force of an upright journal in the middle, no axial clearance",
-                                  "none: both faces just touch", between.force.norm(), 0.0, "N",
-                                  "touching without depth is no contact"));
-
-  struct Tilted {
-    const char* name;
-    double c_a, z, tilt;
-  };
-  for (const auto& [name, c_a, z, tilt] :
-       {Tilted{"no axial clearance, tilt 0.1 mrad", 0.0, 0.0, 1e-4},
-        Tilted{"no axial clearance, 0.2 um towards +z, tilt 0.1 mrad", 0.0, 0.2e-6, 1e-4},
-        Tilted{"axial clearance 5 um, 2 um towards -z, tilt 1 mrad", 5e-6, -2e-6, 1e-3}}) {
-    const Load found = engine_load(faces_only(c_a), {0.0, 0.0, z}, turn(tilt, Eigen::Vector3d::UnitX()));
-    const Load expected = press_on_faces(c_a, z, tilt);
-    const std::string reference = "statics of 16 points on both faces, K_a / 8 each";
-    add_check(findings, std::string("restoring moment of the faces, ") + name, reference, found.moment.x(),
-              expected.moment.x(), 1e-8, "N m", rounding);
-    if (z != 0.0)
-      add_check(findings, std::string("axial force of the faces, ") + name, reference, found.force.z(),
-                expected.force.z(), 1e-8, "N", rounding);
-  }
-  const double radius = 5e-3 - kClearance;
-  const double small = 1e-6;
-  add_check(
-      findings, "restoring moment of the faces, no axial clearance, over a small tilt of 1 urad",
-      "-K_a r_j^2 / 2: half of each face's eight points, sum of sin^2 = 2",
-      engine_load(faces_only(0.0), {0.0, 0.0, 0.0}, turn(small, Eigen::Vector3d::UnitX())).moment.x() / small,
-      -0.5 * 1e8 * radius * radius, 1e-5, "N m/rad", "second order in the tilt: L_b / r_j times 1e-6");
+  for (const double c_a : {0.0, 5e-6}) add_face_depths(findings, c_a);
+  add_faces_without_depth(findings);
+  add_tilted_faces(findings, {"no axial clearance, tilt 0.1 mrad", 0.0, 0.0, 1e-4});
+  add_tilted_faces(findings, {"no axial clearance, 0.2 um towards +z, tilt 0.1 mrad", 0.0, 0.2e-6, 1e-4});
+  add_tilted_faces(findings, {"axial clearance 5 um, 2 um towards -z, tilt 1 mrad", 5e-6, -2e-6, 1e-3});
+  add_small_tilt(findings);
   return findings;
 }
 

@@ -34,13 +34,18 @@ class WorkObserver : public QuietObserver {
   std::vector<double> work;
 };
 
-/// Mean torque that turns the journal at 4 rad/s in a bearing whose axis is held c_r + 4 um beside its own; no damping in the normal law.
-double simulate_torque(RadialForm form, double sigma_0) {
+ClearanceParameters make_rubbing_joint(RadialForm form, double sigma_0) {
   ClearanceParameters joint = one_ring();
   joint.form = form;
   joint.n_ce = kElements;
-  joint.chi = 0.0;
-  joint.friction = FrictionParameters{.mu_s = 0.1, .mu_k = kMuK, .sigma_0 = sigma_0, .sigma_1 = 5.0, .sigma_2 = 0.0, .v_s = 1e-3};
+  joint.chi = 0.0;  // no damping in the normal law
+  joint.friction = FrictionParameters{
+      .mu_s = 0.1, .mu_k = kMuK, .sigma_0 = sigma_0, .sigma_1 = 5.0, .sigma_2 = 0.0, .v_s = 1e-3};
+  return joint;
+}
+
+/// A journal that turns in a bearing whose axis is held c_r + 4 um beside its own.
+Mechanism make_turning_journal(const ClearanceParameters& joint) {
   Mechanism mechanism;
   mechanism.coordinates.push_back({.name = "psi", .placement = {}, .axis = Axis::kZ, .mass = 1.0, .inertia = Eigen::Matrix3d::Identity()});
   mechanism.drives = {{0, RunUp{kOmega, 0.0}}};
@@ -50,7 +55,12 @@ double simulate_torque(RadialForm form, double sigma_0) {
   cut.journal.R = Eigen::AngleAxisd(-0.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   cut.bearing.p = {-joint.c_r - kDepth, 0.0, 0.0};
   mechanism.cut_joints.push_back(cut);
+  return mechanism;
+}
 
+/// Mean torque that turns the journal at 4 rad/s.
+double simulate_torque(RadialForm form, double sigma_0) {
+  const Mechanism mechanism = make_turning_journal(make_rubbing_joint(form, sigma_0));
   // Samples, one for each pitch that the journal has turned. An element passes through the arc in 42 of them, a ring's bristle takes longer.
   const std::size_t from = form == RadialForm::kElements ? 100 : 700;
   const std::size_t to = from + 50;
@@ -85,6 +95,38 @@ double integrate_torque(double sigma_0) {
   return sum * 2.0 * end / kPanels / 3.0;
 }
 
+double calc_coulomb_torque() {
+  const ClearanceParameters joint = one_ring();
+  return kMuK * joint.K * std::pow(kDepth, 1.5) * joint.r_j();
+}
+
+Check compare_continuum_torque(double found, const std::string& at) {
+  const double coulomb = calc_coulomb_torque();
+  return compare("torque of a turning journal, continuum" + at, "mu_k K delta^1.5 r_j", found, coulomb,
+                 1e-5 * coulomb, "N m",
+                 "the bristle tends to its steady bend like exp(-sigma_0 v t / mu_k): 1e-6 is left");
+}
+
+Check compare_elements_torque(double found, double expected, const std::string& at) {
+  return compare(
+      "torque of a turning journal, 720 elements" + at,
+      "integral over the arc of normal force times mu_k + (sigma_1 v - mu_k) exp(-sigma_0 s / mu_k)", found,
+      expected, 1e-5 * expected, "N m",
+      "elements come into contact inside steps of error control: a few parts in a million");
+}
+
+void add_torques(Findings& findings, Table& table, double sigma_0) {
+  const std::string at = ", sigma_0 = " + number(sigma_0, 5) + " 1/m";
+  const double coulomb = calc_coulomb_torque();
+  const double continuum = simulate_torque(RadialForm::kContinuum, sigma_0);
+  const double elements = simulate_torque(RadialForm::kElements, sigma_0);
+  const double expected = integrate_torque(sigma_0);
+  findings.checks.push_back(compare_continuum_torque(continuum, at));
+  findings.checks.push_back(compare_elements_torque(elements, expected, at));
+  table.rows.push_back({number(sigma_0, 5), number(continuum / coulomb, 5), number(elements / coulomb, 4),
+                        number(expected / coulomb, 4)});
+}
+
 }  // namespace
 
 Findings compute_turning_journal() {
@@ -96,21 +138,7 @@ Findings compute_turning_journal() {
           "the contact before it is bent. Where bristles bend fast (sigma_0 = 10,000 1/m) there is no difference but the ring's normal force.",
       .head = {"sigma_0 [1/m]", "continuum", "720 elements", "infinitely many elements"},
       .rows = {}};
-  const ClearanceParameters joint = one_ring();
-  const double coulomb = kMuK * joint.K * std::pow(kDepth, 1.5) * joint.r_j();
-  for (const double sigma_0 : {100.0, 1000.0, 10'000.0}) {
-    const std::string at = ", sigma_0 = " + number(sigma_0, 5) + " 1/m";
-    const double continuum = simulate_torque(RadialForm::kContinuum, sigma_0);
-    const double elements = simulate_torque(RadialForm::kElements, sigma_0);
-    const double expected = integrate_torque(sigma_0);
-    findings.checks.push_back(compare("torque of a turning journal, continuum" + at, "mu_k K delta^1.5 r_j", continuum, coulomb, 1e-5 * coulomb,
-                                      "N m", "the bristle tends to its steady bend like exp(-sigma_0 v t / mu_k): 1e-6 is left"));
-    findings.checks.push_back(compare("torque of a turning journal, 720 elements" + at,
-                                      "integral over the arc of normal force times mu_k + (sigma_1 v - mu_k) exp(-sigma_0 s / mu_k)", elements,
-                                      expected, 1e-5 * expected, "N m",
-                                      "elements come into contact inside steps of error control: a few parts in a million"));
-    table.rows.push_back({number(sigma_0, 5), number(continuum / coulomb, 5), number(elements / coulomb, 4), number(expected / coulomb, 4)});
-  }
+  for (const double sigma_0 : {100.0, 1000.0, 10'000.0}) add_torques(findings, table, sigma_0);
   findings.tables.push_back(std::move(table));
   return findings;
 }
