@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/dynamics/loop_closure.h"
@@ -74,25 +73,28 @@ Line run_dopri5(const RpsupParameters& parameters, double duration, const std::v
 }
 
 /// The balance's largest drift at seven instants, over the kinetic energy at the last one.
+double find_balance_drift(const Mechanism& mechanism, const Evaluation& assembled, double step) {
+  const double before = take_equal_steps(mechanism, assembled, 0.0, 0).energy.calc_balance();
+  Largest drift;
+  double kinetic = 0.0;
+  for (int instant = 1; instant <= 7; ++instant) {
+    const double duration = 0.2 * instant;
+    const auto count = static_cast<int>(std::lround(duration / step));
+    const EnergyAccount account = take_equal_steps(mechanism, assembled, duration, count).energy;
+    drift.take(account.calc_balance() - before);
+    kinetic = account.kinetic;
+  }
+  return drift.value() / kinetic;
+}
+
 Line run_equal_steps(const RpsupParameters& parameters, const std::vector<double>& steps) {
   const Rpsup rpsup = build_rpsup(parameters);
   Evaluation assembled = MotionSystem(rpsup.mechanism).make_evaluation();
   (void)LoopClosure(rpsup.mechanism).assemble(0.0, assembled);
-  const double before = take_equal_steps(rpsup.mechanism, assembled, 0.0, 0).energy.calc_balance();
   Line line;
-  for (const double step : steps) {
-    Largest drift;
-    double kinetic = 0.0;
-    for (int instant = 1; instant <= 7; ++instant) {
-      const double duration = 0.2 * instant;
-      const EnergyAccount account = take_equal_steps(rpsup.mechanism, assembled, duration,
-                                                     static_cast<int>(std::lround(duration / step)))
-                                        .energy;
-      drift.take(account.calc_balance() - before);
-      kinetic = account.kinetic;
-    }
-    line.add("dopri5, equal steps of " + number(1e6 * step, 4) + " us", step, drift.value() / kinetic);
-  }
+  for (const double step : steps)
+    line.add("dopri5, equal steps of " + number(1e6 * step, 4) + " us", step,
+             find_balance_drift(rpsup.mechanism, assembled, step));
   return line;
 }
 
@@ -106,37 +108,47 @@ charts::Series make_series(const std::string& label, const Line& line, const cha
   return {.label = label, .x = line.steps, .y = line.residuals, .colour = colour, .markers = true};
 }
 
-}  // namespace
+struct ResidualLines {
+  Line ideal_rk4, ideal_dopri5, contact_rk4, contact_dopri5;
+};
 
-Findings compute_residual_orders() {
+ResidualLines find_residuals() {
   RpsupParameters ideal;
   ideal.c_r = 0.0;
   ideal.rod_law = StrokeLaw::kCycloidal;  // equal steps do not end where an acceleration jumps
-  const Line ideal_rk4 = run_rk4(ideal, kIdealDuration, {2e-3, 1e-3, 5e-4, 2.5e-4});
-  const Line ideal_dopri5 = run_equal_steps(ideal, {2e-3, 1e-3, 5e-4});
-  const Line contact_rk4 = run_rk4(across_rpsup(), kContactDuration, {2e-5, 1e-5, 5e-6, 2.5e-6});
-  const Line contact_dopri5 =
-      run_dopri5(across_rpsup(), kContactDuration, {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10});
+  return {.ideal_rk4 = run_rk4(ideal, kIdealDuration, {2e-3, 1e-3, 5e-4, 2.5e-4}),
+          .ideal_dopri5 = run_equal_steps(ideal, {2e-3, 1e-3, 5e-4}),
+          .contact_rk4 = run_rk4(across_rpsup(), kContactDuration, {2e-5, 1e-5, 5e-6, 2.5e-6}),
+          .contact_dopri5 =
+              run_dopri5(across_rpsup(), kContactDuration, {1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})};
+}
 
-  const char* reference = "the method's order";
-  const char* smooth = "the next term of the error, one order higher: a part of the longest step, 2 ms";
-  Findings findings;
-  const std::string residual = "exponent of the energy residual over the ";
-  const std::string ideal_case = "ideal rigid linkage, rod by the cycloidal law, ",
-                    contact_case = "second geometry, rigid, 0.25 mm, 0.3 s, ";
-  findings.checks.push_back(compare(ideal_case + "rk4: " + residual + "step, 2 to 0.25 ms", reference,
-                                    ideal_rk4.slope(), 4.0, 0.15, "1", smooth));
-  findings.checks.push_back(compare(ideal_case + "dopri5 in equal steps: " + residual + "step, 2 to 0.5 ms",
-                                    reference, ideal_dopri5.slope(), 5.0, 0.15, "1", smooth));
+constexpr const char* kMethodsOrder = "the method's order";
+constexpr const char* kExponent = "exponent of the energy residual over the ";
+
+void add_ideal_slopes(Findings& findings, const ResidualLines& lines) {
+  const char* why = "the next term of the error, one order higher: a part of the longest step, 2 ms";
+  const std::string ideal = "ideal rigid linkage, rod by the cycloidal law, ";
+  findings.checks.push_back(compare(ideal + "rk4: " + kExponent + "step, 2 to 0.25 ms", kMethodsOrder,
+                                    lines.ideal_rk4.slope(), 4.0, 0.15, "1", why));
+  findings.checks.push_back(compare(ideal + "dopri5 in equal steps: " + kExponent + "step, 2 to 0.5 ms",
+                                    kMethodsOrder, lines.ideal_dopri5.slope(), 5.0, 0.15, "1", why));
+}
+
+void add_contact_slopes(Findings& findings, const ResidualLines& lines) {
+  const std::string contact = "second geometry, rigid, 0.25 mm, 0.3 s, ";
   findings.checks.push_back(
-      compare(contact_case + "dopri5: " + residual + "mean step, tolerance 1e-5 to 1e-10", reference,
-              contact_dopri5.slope(), 5.0, 0.5, "1",
+      compare(contact + "dopri5: " + kExponent + "mean step, tolerance 1e-5 to 1e-10", kMethodsOrder,
+              lines.contact_dopri5.slope(), 5.0, 0.5, "1",
               "which step falls on which impact: a factor of two at either end is 0.3"));
-  const double rk4_slope = contact_rk4.slope();
+  const double rk4_slope = lines.contact_rk4.slope();
   findings.checks.push_back(
-      limit(contact_case + "rk4: how far the " + residual + "step, 20 to 2.5 us, lies outside 2 to 2.5",
+      limit(contact + "rk4: how far the " + kExponent + "step, 20 to 2.5 us, lies outside 2 to 2.5",
             "what an onset inside a step leaves", std::max({0.0, 2.0 - rk4_slope, rk4_slope - 2.5}), 0.3, "1",
             "which step falls on which impact: a factor of two at an end is 0.3"));
+}
+
+Table tabulate_residuals(const ResidualLines& lines) {
   Table table{.caption =
                   "Energy residual over the step. Ideal joint, rod by the cycloidal law: 1 s (equal steps: "
                   "1.4 s); with clearance: the "
@@ -144,11 +156,14 @@ Findings compute_residual_orders() {
               .head = {"case", "integrator", "mean step [us]", "residual"},
               .reproducible_to = 0.3,
               .keys = 3};
-  add_rows(table, "ideal, rigid", ideal_rk4);
-  add_rows(table, "ideal, rigid", ideal_dopri5);
-  add_rows(table, "second geometry, rigid, 0.25 mm", contact_rk4);
-  add_rows(table, "second geometry, rigid, 0.25 mm", contact_dopri5);
-  findings.tables.push_back(std::move(table));
+  add_rows(table, "ideal, rigid", lines.ideal_rk4);
+  add_rows(table, "ideal, rigid", lines.ideal_dopri5);
+  add_rows(table, "second geometry, rigid, 0.25 mm", lines.contact_rk4);
+  add_rows(table, "second geometry, rigid, 0.25 mm", lines.contact_dopri5);
+  return table;
+}
+
+charts::Chart make_residual_chart(const ResidualLines& lines) {
   charts::Chart chart{.title = "energy residual",
                       .x_label = "step, or mean step [s]",
                       .y_label = "",
@@ -156,15 +171,26 @@ Findings compute_residual_orders() {
                       .y_scale = charts::Scale::kLog,
                       .y_min = 2e-13,
                       .y_max = 1e-1};
-  chart.series.push_back(make_series("rk4, with clearance", contact_rk4, charts::kBlue));
-  chart.series.push_back(make_series("dopri5, with clearance", contact_dopri5, charts::kOrange));
-  chart.series.push_back(make_series("rk4, ideal joint", ideal_rk4, charts::kPurple));
-  chart.series.push_back(make_series("dopri5 in equal steps, ideal joint", ideal_dopri5, charts::kGreen));
+  chart.series = {make_series("rk4, with clearance", lines.contact_rk4, charts::kBlue),
+                  make_series("dopri5, with clearance", lines.contact_dopri5, charts::kOrange),
+                  make_series("rk4, ideal joint", lines.ideal_rk4, charts::kPurple),
+                  make_series("dopri5 in equal steps, ideal joint", lines.ideal_dopri5, charts::kGreen)};
+  return chart;
+}
+
+}  // namespace
+
+Findings compute_residual_orders() {
+  const ResidualLines lines = find_residuals();
+  Findings findings;
+  add_ideal_slopes(findings, lines);
+  add_contact_slopes(findings, lines);
+  findings.tables.push_back(tabulate_residuals(lines));
   findings.figures.push_back({"energy_residual.svg",
                               "The energy account closes as the steps become smaller (ideal joint: rod by "
                               "the cycloidal law; with clearance: the "
                               "second geometry).",
-                              charts::draw({chart}, 1)});
+                              charts::draw({make_residual_chart(lines)}, 1)});
   return findings;
 }
 

@@ -93,60 +93,68 @@ class DamperLosses : public QuietObserver {
   std::array<double, 3> damping_{};
 };
 
+void sample_run(const Mechanism& mechanism, double duration, Observer& losses) {
+  (void)simulate(mechanism,
+                 {.duration = duration,
+                  .output_rate = kSampling,
+                  .integrator = Integrator::kDopri5,
+                  .relative_tolerance = 1e-8,
+                  .absolute_tolerance = 1e-9},
+                 losses);
+}
+
+/// Project paper: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E), nu = E / (2 G) - 1.
+double calc_contact_stiffness(const RpsupParameters& p, double r_j) {
+  const double nu = 0.5 * p.youngs_modulus / p.shear_modulus - 1.0;
+  return 2.0 * p.youngs_modulus / (3.0 * (1.0 - nu * nu)) * std::sqrt(p.bearing_radius * r_j / p.c_r);
+}
+
+ContactLosses sample_contact_losses() {
+  RpsupParameters parameters;
+  parameters.radial_levels = 1;
+  parameters.c_a = 5e-3;  // the faces do not touch
+  const double r_j = parameters.bearing_radius - parameters.c_r;
+  ContactLosses losses(parameters.c_r, r_j, calc_contact_stiffness(parameters, r_j));
+  sample_run(build_rpsup(parameters).mechanism, 0.2, losses);
+  return losses;
+}
+
+void add_contact_losses(Findings& findings) {
+  const ContactLosses losses = sample_contact_losses();
+  const char* why =
+      "trapezoids of 1 us that contain an onset, where the power sets in as t^1.5: (1 us / time in contact, "
+      "100 us or more)^2.5";
+  const std::string what = "rigid, 0.25 mm, 10 rad/s, one ring, 0.2 s: ";
+  findings.checks.push_back(compare(
+      what + "impact loss",
+      "integral of (f_n - K delta^1.5) times the penetration rate, from samples of force and motion",
+      losses.energy.impact_loss, losses.impact.sum(), 1e-5 * losses.impact.sum(), "J", why));
+  findings.checks.push_back(
+      compare(what + "friction loss",
+              "integral of the force along the bore times the sliding velocity, from the same samples",
+              losses.energy.friction_loss, losses.friction.sum(), 1e-5 * losses.friction.sum(), "J", why));
+}
+
+Check compare_damper_losses() {
+  RpsupParameters parameters;
+  parameters.coupler = Coupler::kFlexible;
+  const Rpsup rpsup = build_rpsup(parameters);
+  DamperLosses losses(parameters, rpsup.layout.coupler);
+  sample_run(rpsup.mechanism, 0.1, losses);
+  return compare(
+      "flexible, 0.25 mm, 10 rad/s, 0.1 s: structural loss",
+      "integral of rate^T D rate, D from E, G and the rod's size, from samples of the coupler's angles",
+      losses.energy.structural_loss, losses.structural.sum(), 1e-7 * losses.structural.sum(), "J",
+      "ten times the tolerance, 1e-8; trapezoids of a smooth power err only by its slope at the end, h^2 w "
+      "/ (12 T): 8e-9 at w = 1e4 rad/s");
+}
+
 }  // namespace
 
 Findings compute_sampled_losses() {
   Findings findings;
-  const char* why =
-      "trapezoids of 1 us that contain an onset, where the power sets in as t^1.5: (1 us / time in contact, "
-      "100 us or more)^2.5";
-  {
-    RpsupParameters parameters;
-    parameters.radial_levels = 1;
-    parameters.c_a = 5e-3;  // the faces do not touch
-    const Rpsup rpsup = build_rpsup(parameters);
-    const double r_j = parameters.bearing_radius - parameters.c_r;
-    // Project paper: K = 4 / (3 pi 2 h) sqrt(r_b r_j / c_r), h = (1 - nu^2) / (pi E), nu = E / (2 G) - 1
-    const double nu = 0.5 * parameters.youngs_modulus / parameters.shear_modulus - 1.0;
-    const double K = 2.0 * parameters.youngs_modulus / (3.0 * (1.0 - nu * nu)) *
-                     std::sqrt(parameters.bearing_radius * r_j / parameters.c_r);
-    ContactLosses losses(parameters.c_r, r_j, K);
-    (void)simulate(rpsup.mechanism,
-                   {.duration = 0.2,
-                    .output_rate = kSampling,
-                    .integrator = Integrator::kDopri5,
-                    .relative_tolerance = 1e-8,
-                    .absolute_tolerance = 1e-9},
-                   losses);
-    const std::string what = "rigid, 0.25 mm, 10 rad/s, one ring, 0.2 s: ";
-    findings.checks.push_back(compare(
-        what + "impact loss",
-        "integral of (f_n - K delta^1.5) times the penetration rate, from samples of force and motion",
-        losses.energy.impact_loss, losses.impact.sum(), 1e-5 * losses.impact.sum(), "J", why));
-    findings.checks.push_back(
-        compare(what + "friction loss",
-                "integral of the force along the bore times the sliding velocity, from the same samples",
-                losses.energy.friction_loss, losses.friction.sum(), 1e-5 * losses.friction.sum(), "J", why));
-  }
-  {
-    RpsupParameters parameters;
-    parameters.coupler = Coupler::kFlexible;
-    const Rpsup rpsup = build_rpsup(parameters);
-    DamperLosses losses(parameters, rpsup.layout.coupler);
-    (void)simulate(rpsup.mechanism,
-                   {.duration = 0.1,
-                    .output_rate = kSampling,
-                    .integrator = Integrator::kDopri5,
-                    .relative_tolerance = 1e-8,
-                    .absolute_tolerance = 1e-9},
-                   losses);
-    findings.checks.push_back(compare(
-        "flexible, 0.25 mm, 10 rad/s, 0.1 s: structural loss",
-        "integral of rate^T D rate, D from E, G and the rod's size, from samples of the coupler's angles",
-        losses.energy.structural_loss, losses.structural.sum(), 1e-7 * losses.structural.sum(), "J",
-        "ten times the tolerance, 1e-8; trapezoids of a smooth power err only by its slope at the end, h^2 w "
-        "/ (12 T): 8e-9 at w = 1e4 rad/s"));
-  }
+  add_contact_losses(findings);
+  findings.checks.push_back(compare_damper_losses());
   return findings;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/model/rpsup.h"
@@ -39,30 +38,41 @@ std::vector<double> in_millijoule(std::vector<double> values) {
   return values;
 }
 
-}  // namespace
-
-Findings compute_whole_account() {
+AccountRecord record_account() {
   RpsupParameters parameters;
   parameters.coupler = Coupler::kFlexible;
-  const Rpsup rpsup = build_rpsup(parameters);
   AccountRecord record;
-  (void)simulate(rpsup.mechanism, {.duration = 0.5, .output_rate = 1000.0, .integrator = Integrator::kDopri5,
-                                   .relative_tolerance = 1e-8, .absolute_tolerance = 1e-9}, record);
+  (void)simulate(build_rpsup(parameters).mechanism,
+                 {.duration = 0.5,
+                  .output_rate = 1000.0,
+                  .integrator = Integrator::kDopri5,
+                  .relative_tolerance = 1e-8,
+                  .absolute_tolerance = 1e-9},
+                 record);
+  return record;
+}
+
+Check compare_account(const AccountRecord& record) {
   const double sum = record.impact.back() + record.friction.back() + record.structural.back();
   const double scale = *std::max_element(record.work.begin(), record.work.end());
-  Findings findings;
-  findings.checks.push_back(compare(
+  return compare(
       "flexible, 0.25 mm, 10 rad/s, 0.5 s, tolerance 1e-8: impact, friction and structural loss together",
       "work of the drives less the change of energy", sum, record.work.back() - record.change.back(),
-      1e-7 * scale, "J", "ten times the tolerance, of the work done"));
-  Table table{.caption = "Where the work goes: flexible, 0.25 mm, 10 rad/s, after 0.5 s.",
-              .head = {"work of the drives [mJ]", "change of energy [mJ]", "impact loss [mJ]",
-                       "friction loss [mJ]", "structural loss [mJ]"},
-              .reproducible_to = 0.05,
-              .keys = 0};
-  table.rows.push_back({number(1e3 * record.work.back(), 6), number(1e3 * record.change.back(), 6),
-                        number(1e3 * record.impact.back(), 3), number(1e3 * record.friction.back(), 3),
-                        number(1e3 * record.structural.back(), 3)});
+      1e-7 * scale, "J", "ten times the tolerance, of the work done");
+}
+
+Table make_account_table(const AccountRecord& record) {
+  return {.caption = "Where the work goes: flexible, 0.25 mm, 10 rad/s, after 0.5 s.",
+          .head = {"work of the drives [mJ]", "change of energy [mJ]", "impact loss [mJ]",
+                   "friction loss [mJ]", "structural loss [mJ]"},
+          .rows = {{number(1e3 * record.work.back(), 6), number(1e3 * record.change.back(), 6),
+                    number(1e3 * record.impact.back(), 3), number(1e3 * record.friction.back(), 3),
+                    number(1e3 * record.structural.back(), 3)}},
+          .reproducible_to = 0.05,
+          .keys = 0};
+}
+
+charts::Chart make_energy_chart(const AccountRecord& record) {
   charts::Chart energies{
       .title = "work and energy", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.5, .y_max = 8.0};
   energies.series.push_back({.label = "change of energy",
@@ -74,6 +84,10 @@ Findings compute_whole_account() {
                              .x = record.t,
                              .y = in_millijoule(record.work),
                              .colour = charts::kBlue});
+  return energies;
+}
+
+charts::Chart make_loss_chart(const AccountRecord& record) {
   charts::Chart losses{
       .title = "losses", .x_label = "t [s]", .y_label = "[mJ]", .y_min = -0.01, .y_max = 0.28};
   losses.series.push_back(
@@ -82,11 +96,20 @@ Findings compute_whole_account() {
       {.label = "friction", .x = record.t, .y = in_millijoule(record.friction), .colour = charts::kBlue});
   losses.series.push_back(
       {.label = "structure", .x = record.t, .y = in_millijoule(record.structural), .colour = charts::kGreen});
-  findings.tables.push_back(std::move(table));
+  return losses;
+}
+
+}  // namespace
+
+Findings compute_whole_account() {
+  const AccountRecord record = record_account();
+  Findings findings;
+  findings.checks.push_back(compare_account(record));
+  findings.tables.push_back(make_account_table(record));
   findings.figures.push_back(
       {"energy_account.svg",
        "The account of one run: flexible, 0.25 mm, 10 rad/s. The losses are what work and energy differ by.",
-       charts::draw({energies, losses}, 2)});
+       charts::draw({make_energy_chart(record), make_loss_chart(record)}, 2)});
   return findings;
 }
 
