@@ -51,17 +51,7 @@ struct ReferencePoint {
 constexpr std::array<ReferencePoint, 4> kPoints{
     {{1.0, 1.432415027}, {5.0, 1.313208596}, {10.0, 1.219951806}, {30.0, 1.024484811}}};
 
-}  // namespace
-
-Findings compute_break_away() {
-  Findings findings;
-  for (const ReferencePoint& point : kPoints)
-    findings.checks.push_back(
-        compare("break-away force, the force on 1 kg at rest growing by " + number(point.rate) + " N/s",
-                "largest friction before it first falls, by a program of its own: the law for one direction, "
-                "80-bit numbers, Fehlberg 7(8) at 1e-15",
-                find_break_away(point.rate), point.force, 1e-9, "N",
-                "the reference is known to nine decimals; tolerance of the integration, 1e-13"));
+charts::Chart make_break_away_chart() {
   charts::Chart chart{.title = "break-away force",
                       .x_label = "force rate [N/s]",
                       .y_label = "[N]",
@@ -73,10 +63,24 @@ Findings compute_break_away() {
     curve.y.push_back(find_break_away(rate));
   }
   chart.series.push_back(std::move(curve));
+  return chart;
+}
+
+}  // namespace
+
+Findings compute_break_away() {
+  Findings findings;
+  for (const ReferencePoint& point : kPoints)
+    findings.checks.push_back(
+        compare("break-away force, the force on 1 kg at rest growing by " + number(point.rate) + " N/s",
+                "largest friction before it first falls, by a program of its own: the law for one direction, "
+                "80-bit numbers, Fehlberg 7(8) at 1e-15",
+                find_break_away(point.rate), point.force, 1e-9, "N",
+                "the reference is known to nine decimals; tolerance of the integration, 1e-13"));
   findings.figures.push_back({"friction_break_away.svg",
                               "The faster the force grows, the less of it the friction withstands: its "
                               "largest value before the mass slides.",
-                              charts::draw({chart}, 1)});
+                              charts::draw({make_break_away_chart()}, 1)});
   return findings;
 }
 

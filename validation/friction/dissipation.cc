@@ -57,6 +57,25 @@ double find_least_reachable_heat(const FrictionParameters& law) {
   return least;
 }
 
+/// @param parts  speed over the largest at which no bristle gives energy back
+Check compare_beside_limit(double parts) {
+  const double v = 0.16 * parts;
+  return compare("least heat over all bristles " + std::string(parts < 1.0 ? "just below" : "just above") +
+                     " 0.16 m/s, a millionth off, over sigma_1 v^2: defaults",
+                 "closed form: 1 - sigma_1 |v| / (4 g)", find_least_heat({}, v) / (5.0 * v * v), 1.0 - parts,
+                 1e-12, "1", "cancellation of terms near 1");
+}
+
+Check compare_reachable_heat() {
+  return limit(
+      "energy given back by bristles within mu_k / sigma_0, which sliding from z = 0 never leaves, at "
+      "1 um/s to 100 m/s, "
+      "in any direction, over mu_k |v|",
+      "none: that takes a speed beyond 0.16 m/s and a bristle beyond g / sigma_0",
+      std::max(0.0, -find_least_reachable_heat({})), 1e-12, "1",
+      "rounding of the terms, up to sigma_1 v / mu_k = 2500");
+}
+
 }  // namespace
 
 Findings compute_dissipation() {
@@ -70,21 +89,8 @@ Findings compute_dissipation() {
   findings.checks.push_back(compare(
       "largest sliding speed at which no bristle, however bent, gives energy back: values of the article",
       closed, find_limit(published_law()), 4.0 * (sigma_1 + 0.4) / 1e5, 1e-12, "m/s", why));
-  for (const double parts : {1.0 - 1e-6, 1.0 + 1e-6}) {
-    const double v = 0.16 * parts;
-    findings.checks.push_back(
-        compare("least heat over all bristles " + std::string(parts < 1.0 ? "just below" : "just above") +
-                    " 0.16 m/s, a millionth off, over sigma_1 v^2: defaults",
-                "closed form: 1 - sigma_1 |v| / (4 g)", find_least_heat({}, v) / (5.0 * v * v), 1.0 - parts,
-                1e-12, "1", "cancellation of terms near 1"));
-  }
-  findings.checks.push_back(
-      limit("energy given back by bristles within mu_k / sigma_0, which sliding from z = 0 never leaves, at "
-            "1 um/s to 100 m/s, "
-            "in any direction, over mu_k |v|",
-            "none: that takes a speed beyond 0.16 m/s and a bristle beyond g / sigma_0",
-            std::max(0.0, -find_least_reachable_heat({})), 1e-12, "1",
-            "rounding of the terms, up to sigma_1 v / mu_k = 2500"));
+  for (const double parts : {1.0 - 1e-6, 1.0 + 1e-6}) findings.checks.push_back(compare_beside_limit(parts));
+  findings.checks.push_back(compare_reachable_heat());
   return findings;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -119,30 +118,36 @@ Check compare_at_rest() {
                "one product");
 }
 
+charts::Series make_stribeck_curve(const FrictionParameters& law) {
+  charts::Series curve{.label = "Stribeck's curve", .colour = charts::kGrey};
+  for (int k = 0; k <= 200; ++k) {
+    curve.x.push_back(1e-5 * std::pow(10.0, 0.025 * k));
+    curve.y.push_back(stribeck(law, curve.x.back()) + law.sigma_2 * curve.x.back());
+  }
+  return curve;
+}
+
+charts::Series make_steady_dots(const FrictionParameters& law) {
+  charts::Series dots{
+      .label = "after 40 time constants", .colour = charts::kOrange, .markers = true, .width = 0.0};
+  for (const double v : kSpeeds) {
+    double across = 0.0;
+    dots.x.push_back(v);
+    dots.y.push_back(slide(law, v, 40.0 * stribeck(law, v) / (law.sigma_0 * v), across));
+  }
+  return dots;
+}
+
 Figure draw_stribeck() {
   std::vector<charts::Chart> charts;
-  for (const LawCase& c : {law_cases()[0], law_cases()[1]}) {
-    charts::Chart chart{.title = c.name,
-                        .x_label = "velocity [m/s]",
-                        .y_label = "force per normal force",
-                        .x_scale = charts::Scale::kLog,
-                        .y_min = 0.95 * std::min(c.law.mu_s, c.law.mu_k),
-                        .y_max = 1.2 * std::max(c.law.mu_s, c.law.mu_k)};
-    charts::Series curve{.label = "Stribeck's curve", .colour = charts::kGrey};
-    for (int k = 0; k <= 200; ++k) {
-      curve.x.push_back(1e-5 * std::pow(10.0, 0.025 * k));
-      curve.y.push_back(stribeck(c.law, curve.x.back()) + c.law.sigma_2 * curve.x.back());
-    }
-    charts::Series dots{
-        .label = "after 40 time constants", .colour = charts::kOrange, .markers = true, .width = 0.0};
-    for (const double v : kSpeeds) {
-      double across = 0.0;
-      dots.x.push_back(v);
-      dots.y.push_back(slide(c.law, v, 40.0 * stribeck(c.law, v) / (c.law.sigma_0 * v), across));
-    }
-    chart.series = {std::move(curve), std::move(dots)};
-    charts.push_back(std::move(chart));
-  }
+  for (const LawCase& c : {law_cases()[0], law_cases()[1]})
+    charts.push_back({.title = c.name,
+                      .x_label = "velocity [m/s]",
+                      .y_label = "force per normal force",
+                      .x_scale = charts::Scale::kLog,
+                      .y_min = 0.95 * std::min(c.law.mu_s, c.law.mu_k),
+                      .y_max = 1.2 * std::max(c.law.mu_s, c.law.mu_k),
+                      .series = {make_stribeck_curve(c.law), make_steady_dots(c.law)}});
   return {"friction_stribeck.svg",
           "Steady sliding. With the defaults (mu_s < mu_k, as printed in the paper) friction grows with the "
           "velocity.",

@@ -71,6 +71,29 @@ struct RunCase {
   double c_r, crank_velocity, duration;
 };
 
+SlidingRecord record_sliding(const RunCase& c) {
+  RpsupParameters parameters;
+  parameters.c_r = c.c_r;
+  parameters.crank_velocity = c.crank_velocity;
+  const Rpsup rpsup = build_rpsup(parameters);
+  SlidingRecord record(*rpsup.mechanism.cut_joints[0].clearance);
+  (void)simulate(rpsup.mechanism, {.duration = c.duration, .output_rate = 10.0}, record);
+  return record;
+}
+
+void add_run_case(Findings& findings, Table& table, const RunCase& c) {
+  const SlidingRecord record = record_sliding(c);
+  table.rows.push_back({number(1e3 * c.c_r), number(c.crank_velocity), number(c.duration),
+                        number(record.largest), number(record.mean()),
+                        number(100.0 * record.share_beyond(), 2) + " %", number(record.ratio),
+                        number(100.0 * record.share_returned(), 2) + " %"});
+  findings.checks.push_back(limit("rigid, " + number(1e3 * c.c_r) + " mm, " + number(c.crank_velocity) +
+                                      " rad/s, " + number(c.duration) +
+                                      " s: change of energy less work plus losses, over the work",
+                                  "none: friction loses what its force does", record.residual(), 1e-6, "1",
+                                  "tolerance of the integration, 1e-6"));
+}
+
 }  // namespace
 
 Findings compute_sliding_speeds() {
@@ -83,23 +106,8 @@ Findings compute_sliding_speeds() {
                        "contact time beyond 0.16 m/s", "largest friction / normal force", "energy returned"},
               .reproducible_to = 0.05,
               .keys = 3};
-  for (const RunCase& c : {RunCase{0.25e-3, 10.0, 4.0}, RunCase{0.5e-3, 15.0, 4.0}}) {
-    RpsupParameters parameters;
-    parameters.c_r = c.c_r;
-    parameters.crank_velocity = c.crank_velocity;
-    const Rpsup rpsup = build_rpsup(parameters);
-    SlidingRecord record(*rpsup.mechanism.cut_joints[0].clearance);
-    (void)simulate(rpsup.mechanism, {.duration = c.duration, .output_rate = 10.0}, record);
-    table.rows.push_back({number(1e3 * c.c_r), number(c.crank_velocity), number(c.duration),
-                          number(record.largest), number(record.mean()),
-                          number(100.0 * record.share_beyond(), 2) + " %", number(record.ratio),
-                          number(100.0 * record.share_returned(), 2) + " %"});
-    findings.checks.push_back(limit("rigid, " + number(1e3 * c.c_r) + " mm, " + number(c.crank_velocity) +
-                                        " rad/s, " + number(c.duration) +
-                                        " s: change of energy less work plus losses, over the work",
-                                    "none: friction loses what its force does", record.residual(), 1e-6, "1",
-                                    "tolerance of the integration, 1e-6"));
-  }
+  for (const RunCase& c : {RunCase{0.25e-3, 10.0, 4.0}, RunCase{0.5e-3, 15.0, 4.0}})
+    add_run_case(findings, table, c);
   findings.tables.push_back(table);
   return findings;
 }

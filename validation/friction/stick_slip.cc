@@ -38,6 +38,21 @@ class SliderRecord : public QuietObserver {
   }
 };
 
+SliderRecord record_stick_slip() {
+  const Mechanism slider = make_slider(published_law(), kPull, 2.0);
+  RunOptions options;
+  options.duration = kDuration;
+  options.output_rate = 40.0;
+  options.integrator = Integrator::kDopri5;
+  options.relative_tolerance = 1e-10;
+  options.absolute_tolerance = 1e-13;
+  options.step_limit = 1'000'000;  // some 75,000 are needed
+  SliderRecord record;
+  run_from(slider, options, Eigen::Vector3d(0.0, 0.0, resting_height(slider)),
+           Eigen::Vector3d(0.0, -kPull, 0.0), record);
+  return record;
+}
+
 Figure draw_stick_slip(const SliderRecord& record) {
   charts::Chart position{.title = "position", .x_label = "t [s]", .y_label = "[m]", .y_max = 3.2};
   position.series.push_back({.label = "mass", .x = record.t, .y = record.position});
@@ -54,17 +69,7 @@ Figure draw_stick_slip(const SliderRecord& record) {
 }  // namespace
 
 Findings compute_stick_slip() {
-  const Mechanism slider = make_slider(published_law(), kPull, 2.0);
-  RunOptions options;
-  options.duration = kDuration;
-  options.output_rate = 40.0;
-  options.integrator = Integrator::kDopri5;
-  options.relative_tolerance = 1e-10;
-  options.absolute_tolerance = 1e-13;
-  options.step_limit = 1'000'000;  // some 75,000 are needed
-  SliderRecord record;
-  run_from(slider, options, Eigen::Vector3d(0.0, 0.0, resting_height(slider)),
-           Eigen::Vector3d(0.0, -kPull, 0.0), record);
+  const SliderRecord record = record_stick_slip();
   Findings findings;
   findings.checks.push_back(compare(
       "stick-slip (1 kg, spring 2 N/m pulled at 0.1 m/s from rest), the whole engine: position after 25 s",
