@@ -57,6 +57,37 @@ charts::Chart make_chart(const char* title) {
           .series = {}};
 }
 
+/// First frequency of the divided coupler in torsion, one end fixed. [Hz]
+double find_torsional_frequency(int segments) {
+  const Mechanism mechanism = cut_coupler(solid_rod(kDensity), segments, NearEnd::kClamped);
+  std::vector<Eigen::Index> about_x;
+  for (Eigen::Index i = 2; i < static_cast<Eigen::Index>(mechanism.coordinates.size()); i += 3)
+    about_x.push_back(i);
+  return calc_frequencies(calc_mass_matrix(mechanism)(about_x, about_x),
+                          stiffness_matrix(mechanism)(about_x, about_x), Eigen::MatrixXd(0, segments))[0];
+}
+
+double calc_torsional_wave_speed() { return std::sqrt(0.8e11 / kDensity); }
+
+void add_torsion(Findings& findings, Table& table, int n) {
+  const double found = find_torsional_frequency(n);
+  const double expected = n / (std::numbers::pi * Rod::kLength) * calc_torsional_wave_speed() *
+                          std::sin(std::numbers::pi / (4.0 * n));
+  findings.checks.push_back(
+      compare("frequency in torsion, one end fixed, " + std::to_string(n) + " segments",
+              "chain of discs: n / (pi l) sqrt(G / rho) sin(pi / (4 n))", found, expected, 1e-10 * expected,
+              "Hz", "rounding in the eigenproblem"));
+  table.rows.push_back({std::to_string(n), number(found, 8), number(expected, 8)});
+}
+
+Check compare_torsion_limit() {
+  const double at_20 = find_torsional_frequency(20), at_40 = find_torsional_frequency(40);
+  const double expected = calc_torsional_wave_speed() / (4.0 * Rod::kLength);
+  return compare("limit of the frequency in torsion, one end fixed", "sqrt(G / rho) / (4 l)",
+                 (4.0 * at_40 - at_20) / 3.0, expected, 1e-7 * expected, "Hz",
+                 "extrapolated from 20 and 40 segments: terms of n^-4");
+}
+
 }  // namespace
 
 Findings compute_frequencies_of_three_segments() {
@@ -169,36 +200,11 @@ Findings compute_frequency_limits() {
 
 Findings compute_torsion() {
   Findings findings;
-  const Rod rod = solid_rod(kDensity);
-  const double wave_speed = std::sqrt(0.8e11 / kDensity);
-  const double limit_frequency = wave_speed / (4.0 * Rod::kLength);
   Table table{.caption = "First frequency in torsion of the coupler, one end fixed, 7801 kg/m^3.",
               .head = {"segments", "found [Hz]", "n / (pi l) sqrt(G / rho) sin(pi / (4 n))"},
               .rows = {}};
-  double at_20 = 0.0;
-  double at_40 = 0.0;
-  for (const int n : {1, 3, 10, 20, 40}) {
-    const Mechanism mechanism = cut_coupler(rod, n, NearEnd::kClamped);
-    std::vector<Eigen::Index> about_x;
-    for (Eigen::Index i = 2; i < static_cast<Eigen::Index>(mechanism.coordinates.size()); i += 3)
-      about_x.push_back(i);
-    const double found =
-        calc_frequencies(calc_mass_matrix(mechanism)(about_x, about_x),
-                         stiffness_matrix(mechanism)(about_x, about_x), Eigen::MatrixXd(0, n))[0];
-    const double expected =
-        n / (std::numbers::pi * Rod::kLength) * wave_speed * std::sin(std::numbers::pi / (4.0 * n));
-    findings.checks.push_back(
-        compare("frequency in torsion, one end fixed, " + std::to_string(n) + " segments",
-                "chain of discs: n / (pi l) sqrt(G / rho) sin(pi / (4 n))", found, expected, 1e-10 * expected,
-                "Hz", "rounding in the eigenproblem"));
-    table.rows.push_back({std::to_string(n), number(found, 8), number(expected, 8)});
-    if (n == 20) at_20 = found;
-    if (n == 40) at_40 = found;
-  }
-  findings.checks.push_back(compare("limit of the frequency in torsion, one end fixed",
-                                    "sqrt(G / rho) / (4 l)", (4.0 * at_40 - at_20) / 3.0, limit_frequency,
-                                    1e-7 * limit_frequency, "Hz",
-                                    "extrapolated from 20 and 40 segments: terms of n^-4"));
+  for (const int n : {1, 3, 10, 20, 40}) add_torsion(findings, table, n);
+  findings.checks.push_back(compare_torsion_limit());
   findings.tables.push_back(std::move(table));
   return findings;
 }

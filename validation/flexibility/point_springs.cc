@@ -117,36 +117,66 @@ Linkage make_thrown_body() {
   return linkage;
 }
 
+/// Decay and circular frequency of the block's swing.
+constexpr double kBlockDecay = 0.5 * kDamping / kSpringMass;                                 // [1/s]
+const double kBlockOmega = std::sqrt(kStiffness / kSpringMass - kBlockDecay * kBlockDecay);  // [rad/s]
+
+double calc_block_position(double t) {
+  const double b = kBlockDecay, w = kBlockOmega;
+  return kFree + (kStart - kFree) * std::exp(-b * t) * (std::cos(w * t) + b / w * std::sin(w * t));
+}
+
+/// Largest error of the block's position in a run. [m]
+double find_block_error(const RunResult& run) {
+  const std::vector<double>&t = column(run, "t_s"), &x = column(run, "block_m");
+  double largest = 0.0;
+  for (std::size_t k = 0; k < t.size(); ++k)
+    largest = std::max(largest, std::abs(x[k] - calc_block_position(t[k])));
+  return largest;
+}
+
+void add_block_swing(Findings& findings, const RunResult& run, const std::string& by) {
+  const Oscillation swing = measure(find_extrema(column(run, "t_s"), column(run, "block_m"), 0.0));
+  const double frequency = 0.5 * kBlockOmega / std::numbers::pi,
+               ratio = kBlockDecay / std::sqrt(kStiffness / kSpringMass);
+  const std::string why = "turning points by a parabola through samples 0.05 ms apart";
+  findings.checks.push_back(compare("frequency of the block on the spring" + by,
+                                    "sqrt(k / m - (d / (2 m))^2) / (2 pi)", swing.frequency, frequency,
+                                    1e-8 * frequency, "Hz", why));
+  findings.checks.push_back(
+      compare("damping ratio of the block on the spring from the logarithmic decrement" + by,
+              "d / (2 sqrt(k m))", swing.damping_ratio, ratio, 1e-6 * ratio, "1", why));
+}
+
+void add_block_on_a_spring(Findings& findings, const Method& method) {
+  const RunResult run = run_linkage(make_block(), method.integrator, 1.0, 2e4);
+  const std::string by = std::string(", ") + method.name;
+  findings.checks.push_back(
+      limit("block of 2 kg on a spring of 8e4 N/m and a damper of 4 N s/m, over 1 s" + by,
+            "x = L_0 + a exp(-b t) (cos(w t) + b / w sin(w t))", 1e6 * find_block_error(run), 1e-3, "um",
+            "the steps' tolerance of 1e-10, over 32 periods"));
+  add_block_swing(findings, run, by);
+}
+
+void add_thrown_body(Findings& findings, const Method& method) {
+  constexpr double kEnd = 1.0;
+  const double rate = kDrag / kThrownMass, left = std::exp(-rate * kEnd);
+  const double terminal = kSpringGravity / rate;
+  const RunResult run = run_linkage(make_thrown_body(), method.integrator, kEnd, 100.0);
+  const std::string by = std::string(" of a thrown body with drag, after 1 s, ") + method.name;
+  const std::string why = "the steps' tolerance of 1e-10";
+  findings.checks.push_back(compare("horizontal velocity" + by, "v_0 exp(-c t / m)",
+                                    column(run, "x_m_s").back(), kThrown * left, 1e-8, "m/s", why));
+  findings.checks.push_back(compare("fall" + by, "(m g / c) (t - (m / c) (1 - exp(-c t / m)))",
+                                    -column(run, "y_m").back(), terminal * (kEnd - (1.0 - left) / rate), 1e-8,
+                                    "m", why));
+}
+
 }  // namespace
 
 Findings compute_block_on_a_spring() {
   Findings findings;
-  const double b = 0.5 * kDamping / kSpringMass, w = std::sqrt(kStiffness / kSpringMass - b * b);
-  const std::string why = "turning points by a parabola through samples 0.05 ms apart";
-  for (const Method& method : kMethods) {
-    const RunResult result = run_linkage(make_block(), method.integrator, 1.0, 2e4);
-    const std::vector<double>& t = column(result, "t_s");
-    const std::vector<double>& x = column(result, "block_m");
-    double largest = 0.0;
-    for (std::size_t k = 0; k < t.size(); ++k) {
-      const double expected =
-          kFree + (kStart - kFree) * std::exp(-b * t[k]) * (std::cos(w * t[k]) + b / w * std::sin(w * t[k]));
-      largest = std::max(largest, std::abs(x[k] - expected));
-    }
-    const std::string by = std::string(", ") + method.name;
-    findings.checks.push_back(
-        limit("block of 2 kg on a spring of 8e4 N/m and a damper of 4 N s/m, over 1 s" + by,
-              "x = L_0 + a exp(-b t) (cos(w t) + b / w sin(w t))", 1e6 * largest, 1e-3, "um",
-              "the steps' tolerance of 1e-10, over 32 periods"));
-    const Oscillation swing = measure(find_extrema(t, x, 0.0));
-    const double frequency = 0.5 * w / std::numbers::pi, ratio = b / std::sqrt(kStiffness / kSpringMass);
-    findings.checks.push_back(compare("frequency of the block on the spring" + by,
-                                      "sqrt(k / m - (d / (2 m))^2) / (2 pi)", swing.frequency, frequency,
-                                      1e-8 * frequency, "Hz", why));
-    findings.checks.push_back(
-        compare("damping ratio of the block on the spring from the logarithmic decrement" + by,
-                "d / (2 sqrt(k m))", swing.damping_ratio, ratio, 1e-6 * ratio, "1", why));
-  }
+  for (const Method& method : kMethods) add_block_on_a_spring(findings, method);
   return findings;
 }
 
@@ -164,20 +194,8 @@ Findings compute_tied_pendulum() {
 }
 
 Findings compute_thrown_body() {
-  constexpr double kEnd = 1.0;
   Findings findings;
-  const double rate = kDrag / kThrownMass, left = std::exp(-rate * kEnd);
-  const double terminal = kSpringGravity / rate;
-  for (const Method& method : kMethods) {
-    const RunResult run = run_linkage(make_thrown_body(), method.integrator, kEnd, 100.0);
-    const std::string by = std::string(" of a thrown body with drag, after 1 s, ") + method.name;
-    const std::string why = "the steps' tolerance of 1e-10";
-    findings.checks.push_back(compare("horizontal velocity" + by, "v_0 exp(-c t / m)",
-                                      column(run, "x_m_s").back(), kThrown * left, 1e-8, "m/s", why));
-    findings.checks.push_back(compare("fall" + by, "(m g / c) (t - (m / c) (1 - exp(-c t / m)))",
-                                      -column(run, "y_m").back(),
-                                      terminal * (kEnd - (1.0 - left) / rate), 1e-8, "m", why));
-  }
+  for (const Method& method : kMethods) add_thrown_body(findings, method);
   return findings;
 }
 

@@ -81,6 +81,18 @@ struct SpinUp {
   double largest = 0.0, at = 0.0;  ///< lag, and when
 };
 
+/// Lag by the parabola through the three samples about the least.
+SpinUp find_largest_lag(const TipObserver& tip) {
+  const auto least = static_cast<std::size_t>(std::min_element(tip.lag.begin(), tip.lag.end()) -
+                                              tip.lag.begin());
+  const double before = tip.lag[least - 1], middle = tip.lag[least], after = tip.lag[least + 1];
+  const double s = 0.5 * (before - after) / (before - 2.0 * middle + after);
+  return {.t = tip.t,
+          .lag = tip.lag,
+          .largest = middle - 0.25 * s * (before - after),
+          .at = tip.t[least] + 0.01 * s};
+}
+
 SpinUp simulate_spin_up(int segments, double duration) {
   const Mechanism beam = make_beam(segments);
   const RunOptions options{.duration = duration, .output_rate = 100.0, .integrator = Integrator::kDopri5,
@@ -89,16 +101,7 @@ SpinUp simulate_spin_up(int segments, double duration) {
   const RunOutcome end = Integration(beam, options, observer).run(MotionSystem(beam).make_evaluation());
   if (end.status != RunStatus::kSucceeded)
     throw std::runtime_error("a run of the validation failed: " + end.detail);
-  const auto least = static_cast<std::size_t>(std::min_element(observer.lag.begin(), observer.lag.end()) -
-                                              observer.lag.begin());
-  // The parabola through three samples.
-  const double before = observer.lag[least - 1], middle = observer.lag[least],
-               after = observer.lag[least + 1];
-  const double s = 0.5 * (before - after) / (before - 2.0 * middle + after);
-  return {.t = observer.t,
-          .lag = observer.lag,
-          .largest = middle - 0.25 * s * (before - after),
-          .at = observer.t[least] + 0.01 * s};
+  return find_largest_lag(observer);
 }
 
 }  // namespace
