@@ -269,26 +269,38 @@ void add_rod_features(const Stroke& stroke, Findings& findings) {
               pause.value(), 0.0, "m, m/s, m/s^2", figure);
 }
 
-/// The crank's velocity and the rod's displacement from its rest: what the paper shows.
-Figure draw_laws() {
+/// Instants of the charts.
+std::vector<double> list_drawn_times() {
+  std::vector<double> times;
+  for (int k = 0; k <= 500; ++k) times.push_back(kDriveLawDuration * k / 500.0);
+  return times;
+}
+
+charts::Chart draw_crank_velocity() {
   const RunUp crank = crank_law({});
+  charts::Series velocity{.label = "", .x = list_drawn_times(), .y = {}};
+  for (const double t : velocity.x) velocity.y.push_back(calc_driven_motion(crank, t).qd);
+  return {.title = "Drive of the crank",
+          .x_label = "t [s]",
+          .y_label = "velocity [rad/s]",
+          .series = {std::move(velocity)}};
+}
+
+charts::Chart draw_rod_displacement() {
   const RiseReturnPause rod = rod_law({});
-  charts::Chart velocity{.title = "Drive of the crank", .x_label = "t [s]", .y_label = "velocity [rad/s]"};
-  charts::Chart displacement{
-      .title = "Drive of the rod", .x_label = "t [s]", .y_label = "displacement from its rest [m]"};
-  charts::Series of_crank{.label = "", .x = {}, .y = {}}, of_rod = of_crank;
-  for (int k = 0; k <= 500; ++k) {
-    const double t = kDriveLawDuration * k / 500.0;
-    of_crank.x.push_back(t);
-    of_crank.y.push_back(calc_driven_motion(crank, t).qd);
-    of_rod.x.push_back(t);
-    of_rod.y.push_back(calc_driven_motion(rod, t).q - rod.start);
-  }
-  velocity.series.push_back(std::move(of_crank));
-  displacement.series.push_back(std::move(of_rod));
+  charts::Series displacement{.label = "", .x = list_drawn_times(), .y = {}};
+  for (const double t : displacement.x) displacement.y.push_back(calc_driven_motion(rod, t).q - rod.start);
+  return {.title = "Drive of the rod",
+          .x_label = "t [s]",
+          .y_label = "displacement from its rest [m]",
+          .series = {std::move(displacement)}};
+}
+
+/// What the paper shows.
+Figure draw_laws() {
   return {"drive_laws.svg",
           "The drives as in the paper's Fig. 4: the crank at 10 rad/s, the rod by its cosine law.",
-          charts::draw({velocity, displacement}, 2)};
+          charts::draw({draw_crank_velocity(), draw_rod_displacement()}, 2)};
 }
 
 }  // namespace

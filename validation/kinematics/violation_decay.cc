@@ -104,28 +104,33 @@ charts::Chart draw_decay(const Stabilisation& s, const History& history) {
   return chart;
 }
 
+Check compare_decay(const Stabilisation& s, const History& history) {
+  Largest worst;
+  for (std::size_t k = 0; k < history.t.size(); ++k)
+    for (Eigen::Index row = 0; row < history.Phi.size(); ++row)
+      worst.take(history.rows[k][row] - calc_law(s, history.Phi[row], history.Phi_d[row], history.t[k]));
+  const double largest = history.Phi.cwiseAbs().maxCoeff();
+  const std::string of = std::string(s.coupler == Coupler::kRigid ? "rigid" : "flexible") +
+                         " coupler, alpha = " + number(s.alpha) + " 1/s, beta = " + number(s.beta) + " 1/s";
+  return limit("violation of joint and drives over 0.1 s from a disturbed start, " + of,
+               "solution of Phi_dd + 2 alpha Phi_d + beta^2 Phi = 0", worst.value() / largest, 1e-8, "1",
+               "drift of rk4 with steps of " + number(s.step) +
+                   " s, at most 5e-12 m or rad, relative to the first violation");
+}
+
+constexpr Stabilisation kStabilisations[] = {{Coupler::kRigid, 100.0, 100.0, 1e-4},
+                                             {Coupler::kRigid, 20.0, 100.0, 1e-4},
+                                             {Coupler::kRigid, 150.0, 60.0, 1e-4},
+                                             {Coupler::kFlexible, 100.0, 100.0, 2e-5}};
+
 }  // namespace
 
 Findings compute_violation_decay() {
   Findings findings;
   std::vector<charts::Chart> charts;
-  for (const Stabilisation& s :
-       {Stabilisation{Coupler::kRigid, 100.0, 100.0, 1e-4}, Stabilisation{Coupler::kRigid, 20.0, 100.0, 1e-4},
-        Stabilisation{Coupler::kRigid, 150.0, 60.0, 1e-4},
-        Stabilisation{Coupler::kFlexible, 100.0, 100.0, 2e-5}}) {
+  for (const Stabilisation& s : kStabilisations) {
     const History history = record(s);
-    Largest worst;
-    for (std::size_t k = 0; k < history.t.size(); ++k)
-      for (Eigen::Index row = 0; row < history.Phi.size(); ++row)
-        worst.take(history.rows[k][row] - calc_law(s, history.Phi[row], history.Phi_d[row], history.t[k]));
-    const double largest = history.Phi.cwiseAbs().maxCoeff();
-    const std::string of = std::string(s.coupler == Coupler::kRigid ? "rigid" : "flexible") +
-                           " coupler, alpha = " + number(s.alpha) + " 1/s, beta = " + number(s.beta) + " 1/s";
-    findings.checks.push_back(limit("violation of joint and drives over 0.1 s from a disturbed start, " + of,
-                                    "solution of Phi_dd + 2 alpha Phi_d + beta^2 Phi = 0",
-                                    worst.value() / largest, 1e-8, "1",
-                                    "drift of rk4 with steps of " + number(s.step) +
-                                        " s, at most 5e-12 m or rad, relative to the first violation"));
+    findings.checks.push_back(compare_decay(s, history));
     if (s.coupler == Coupler::kRigid) charts.push_back(draw_decay(s, history));
   }
   findings.figures.push_back(
