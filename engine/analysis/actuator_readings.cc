@@ -10,21 +10,26 @@ namespace engine {
 
 namespace {
 
+/// Those of a motor but for its power. @param first  index of the motor's first applied force
+ActuatorReadings make_motor_readings(FrameIndex winding, Eigen::Index first) {
+  ActuatorReadings readings;
+  readings.force = [first](const Evaluation& at) {
+    return at.applied_force[first + kElectromagnetic] + at.applied_force[first + kMotorLoss];
+  };
+  readings.current = [winding](const Evaluation& at) { return at.qd[winding]; };
+  readings.voltage = [first](const Evaluation& at) { return at.applied_force[first + kSupply]; };
+  readings.electric_work = [first](const Evaluation& at) { return at.applied_work[first + kSupply]; };
+  return readings;
+}
+
 /// @param first  index of the actuator's first applied force
 ActuatorReadings make_readings(const Actuation& actuation, Eigen::Index first) {
   const FrameIndex coordinate = actuation.coordinate;
   ActuatorReadings readings;
-  if (!std::holds_alternative<DcMotor>(actuation.element)) {
+  if (std::holds_alternative<DcMotor>(actuation.element))
+    readings = make_motor_readings(actuation.winding, first);
+  else
     readings.force = [first](const Evaluation& at) { return at.applied_force[first]; };
-  } else {
-    const FrameIndex winding = actuation.winding;
-    readings.force = [first](const Evaluation& at) {
-      return at.applied_force[first + kElectromagnetic] + at.applied_force[first + kMotorLoss];
-    };
-    readings.current = [winding](const Evaluation& at) { return at.qd[winding]; };
-    readings.voltage = [first](const Evaluation& at) { return at.applied_force[first + kSupply]; };
-    readings.electric_work = [first](const Evaluation& at) { return at.applied_work[first + kSupply]; };
-  }
   readings.power = [coordinate, force = readings.force](const Evaluation& at) {
     return force(at) * at.qd[coordinate];
   };

@@ -81,19 +81,28 @@ class IdealPeakSearch {
     double dt = std::min(next_dt_, longest);
     for (;; dt *= 0.5) {
       if (dt < kShortest * longest || stopped_) return false;
-      const double remaining = piece_end_ - last_.t;
-      const double end = remaining <= dt        ? piece_end_
-                         : remaining < 2.0 * dt ? last_.t + 0.5 * remaining
-                                                : last_.t + dt;
+      const double end = choose_end(dt);
       if (!(end > last_.t)) return false;
       if (!solve(end, next_, last_, next_) || !keeps_branch(determinant_, closure_.determinant())) continue;
       if (!searches_ || is_smooth() || dt < kShortSmooth * followed) break;
     }
+    accept_interval(dt);
+    return true;
+  }
+
+  /// End of an interval of dt, or of what divides the rest of the piece evenly.
+  [[nodiscard]] double choose_end(double dt) const {
+    const double remaining = piece_end_ - last_.t;
+    return remaining <= dt        ? piece_end_
+           : remaining < 2.0 * dt ? last_.t + 0.5 * remaining
+                                  : last_.t + dt;
+  }
+
+  void accept_interval(double dt) {
     next_dt_ = 1.5 * dt;
     determinant_ = closure_.determinant();
     if (searches_) search_interval();
     std::swap(last_, next_);
-    return true;
   }
 
   /// The longest interval from the last node on that the drives allow.
@@ -148,10 +157,7 @@ class IdealPeakSearch {
     const double apart = std::min(kOfInterval * dt, 0.25 * (piece_end_ - piece_start_));
     for (int i = 0; i < kMaxTries; ++i) {
       t = std::clamp(t, piece_start_ + apart, piece_end_ - apart);
-      const double before = probe(t - apart);
-      const double middle = probe(t);
-      const double after = probe(t + apart);
-      const double offset = 0.5 * (before - after) / (before - 2.0 * middle + after);
+      const double offset = calc_extreme_offset(t, apart);
       if (!std::isfinite(offset)) return;
       t = std::clamp(t + apart * std::clamp(offset, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_,
                      piece_end_);
@@ -160,6 +166,14 @@ class IdealPeakSearch {
       located_ = t;
       return;
     }
+  }
+
+  /// Distance from t, over `apart`, of the extreme of the parabola through t and both instants beside it.
+  double calc_extreme_offset(double t, double apart) {
+    const double before = probe(t - apart);
+    const double middle = probe(t);
+    const double after = probe(t + apart);
+    return 0.5 * (before - after) / (before - 2.0 * middle + after);
   }
 
   double probe(double t) {

@@ -32,6 +32,11 @@ std::string describe_source(std::string_view source) {
   return std::string("the ") + what + " " + std::string(source.substr(dot + 1));
 }
 
+/// Ending of the key of a generalised force, and what the force is called.
+/// @param is_translation  whether its coordinate is one; else it is a rotation
+const char* force_unit(bool is_translation) { return is_translation ? "_n" : "_n_m"; }
+const char* force_name(bool is_translation) { return is_translation ? "force" : "torque"; }
+
 /// @param what  "channel" or "metric"  @param sources  one a quantity
 std::optional<KeyClash> find_clash_of(const char* what, const std::vector<QuantityInfo>& table,
                                       const std::vector<std::string>& sources) {
@@ -49,38 +54,38 @@ std::optional<KeyClash> find_clash_of(const char* what, const std::vector<Quanti
   return std::nullopt;
 }
 
+/// Peak of the k-th acceleration in the steady window; null if the run does not come there.
+Peak find_steady_peak(const RunMetrics& metrics, std::size_t k) {
+  if (metrics.steady_time() > 0.0) return metrics.acceleration(k).steady;
+  return {.magnitude = kNoValue, .t = kNoValue};
+}
+
 }  // namespace
 
 LinkageQuantities::LinkageQuantities(const Linkage& linkage, const BuiltLinkage& built, double steady_from)
     : built_(built), reactions_(built.mechanism) {
-  sliding_work_.reserve(linkage.joints.size());
   measured_.steady_from = steady_from;
   measured_.prepare = prepare();
   add_channel("t_s", "Time", [](const Evaluation& at) { return at.t; });
-  for (std::size_t k = 0; k < linkage.joints.size(); ++k) {
-    source_ = "joints." + linkage.joints[k].name;
-    for (int i = 0; i < built.joints[k].count; ++i)
-      add_coordinate(linkage.joints[k].freedoms[static_cast<std::size_t>(i)], built.joints[k].first + i);
-  }
-  for (std::size_t k = 0; k < linkage.joints.size(); ++k) {
-    source_ = "joints." + linkage.joints[k].name;
-    add_joint(linkage.joints[k], built.joints[k]);
-  }
-  for (std::size_t k = 0; k < linkage.springs.size(); ++k) {
-    source_ = "springs." + linkage.springs[k].name;
-    add_spring(linkage.springs[k], k);
-  }
-  for (std::size_t k = 0; k < linkage.loads.size(); ++k) {
-    source_ = "loads." + linkage.loads[k].name;
-    add_body_load(linkage.loads[k], k);
-  }
-  for (std::size_t k = 0; k < linkage.accelerometers.size(); ++k) {
-    source_ = "accelerometers." + linkage.accelerometers[k].name;
-    add_accelerometer(linkage, k);
-  }
+  add_joints(linkage.joints);
+  for (std::size_t k = 0; k < linkage.springs.size(); ++k) add_spring(linkage.springs[k], k);
+  for (std::size_t k = 0; k < linkage.loads.size(); ++k) add_body_load(linkage.loads[k], k);
+  for (std::size_t k = 0; k < linkage.accelerometers.size(); ++k) add_accelerometer(linkage, k);
   source_.clear();
   add_energy_channels();
   add_run_metrics();
+}
+
+void LinkageQuantities::add_joints(const std::vector<LinkageJoint>& joints) {
+  sliding_work_.reserve(joints.size());
+  for (std::size_t k = 0; k < joints.size(); ++k) add_coordinates(joints[k], built_.joints[k]);
+  for (std::size_t k = 0; k < joints.size(); ++k) add_joint(joints[k], built_.joints[k]);
+}
+
+void LinkageQuantities::add_coordinates(const LinkageJoint& joint, const BuiltJoint& built) {
+  source_ = "joints." + joint.name;
+  for (int i = 0; i < built.count; ++i)
+    add_coordinate(joint.freedoms[static_cast<std::size_t>(i)], built.first + i);
 }
 
 Preparation LinkageQuantities::prepare() {
@@ -135,77 +140,87 @@ void LinkageQuantities::add_extremes(const std::string& stem, const std::string&
   add_channels(extremes);
 }
 
+bool LinkageQuantities::is_translation(FrameIndex coordinate) const {
+  return built_.mechanism.coordinates[static_cast<std::size_t>(coordinate)].motion == Motion::kTranslation;
+}
+
 void LinkageQuantities::add_coordinate(const LinkageFreedom& freedom, FrameIndex i) {
-  const bool slides =
-      built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
-  const std::string unit = slides ? "_m" : "_rad";
+  const std::string unit = is_translation(i) ? "_m" : "_rad";
   add_channel(freedom.name + unit, "Coordinate of the joint", [i](const Evaluation& at) { return at.q[i]; });
   add_channel(freedom.name + unit + "_s", "Rate of the joint's coordinate",
               [i](const Evaluation& at) { return at.qd[i]; });
+  add_acceleration(freedom.name, unit + "_s2", i);
+  if (freedom.drive) add_drive(freedom, i);
+  if (freedom.actuator || freedom.load || freedom.friction) add_force_elements(freedom, i);
+}
+
+void LinkageQuantities::add_acceleration(const std::string& name, const std::string& unit, FrameIndex i) {
   const Reading acceleration = [i](const Evaluation& at) { return at.qdd[i]; };
-  add_channel(freedom.name + unit + "_s2", "Acceleration of the joint's coordinate", acceleration);
-  add_extremes(freedom.name, unit + "_s2", acceleration, Channel::Kind::kLeastAcceleration,
-               static_cast<std::size_t>(i));
+  add_channel(name + unit, "Acceleration of the joint's coordinate", acceleration);
+  add_extremes(name, unit, acceleration, Channel::Kind::kLeastAcceleration, static_cast<std::size_t>(i));
+  add_acceleration_metrics(name + "_acceleration", unit, i);
+}
+
+void LinkageQuantities::add_acceleration_metrics(const std::string& stem, const std::string& unit,
+                                                 FrameIndex i) {
   const std::size_t k = measured_.accelerations.size();
   measured_.accelerations.push_back(i);
-  const std::string name = freedom.name + "_acceleration";
-  add_peak("peak_" + name, unit + "_s2",
+  add_peak("peak_" + stem, unit,
            "Largest magnitude of the coordinate's acceleration in the steady window (t ≥ run_up_s), sought "
            "inside every integration step",
-           1.0, [k](const RunMetrics& metrics) {
-             return metrics.steady_time() > 0.0 ? metrics.acceleration(k).steady
-                                                : Peak{.magnitude = kNoValue, .t = kNoValue};
-           });
-  add_peak("peak_" + name + "_whole_run", unit + "_s2",
+           1.0, [k](const RunMetrics& metrics) { return find_steady_peak(metrics, k); });
+  add_peak("peak_" + stem + "_whole_run", unit,
            "Largest magnitude of the coordinate's acceleration in the whole run", 1.0,
            [k](const RunMetrics& metrics) { return metrics.acceleration(k).whole_run; });
   add_metric(
-      {.key = "rms_" + name + unit + "_s2",
+      {.key = "rms_" + stem + unit,
        .help = "Root mean square of the coordinate's acceleration in the steady window (t ≥ run_up_s)"},
       [k](const RunMetrics& metrics, const auto&) { return metrics.calc_rms(k); });
-  if (freedom.drive) add_drive(freedom, i);
-  if (freedom.actuator || freedom.load || freedom.friction) add_force_elements(freedom, i);
 }
 
 void LinkageQuantities::add_drive(const LinkageFreedom& freedom, FrameIndex i) {
   const std::vector<Drive>& drives = built_.mechanism.drives;
   Eigen::Index drive = 0;
   while (drives[static_cast<std::size_t>(drive)].coordinate != i) ++drive;
-  const bool slides =
-      built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
-  const std::string what = slides ? "force" : "torque";
-  add_sampled_load(freedom.name + "_drive", slides ? "_n" : "_n_m", "Driving " + what + " of the coordinate",
-                   "Largest magnitude of the coordinate's driving " + what + " in the whole run",
-                   [drive](const Evaluation& at) { return at.drive_force[drive]; });
+  add_driving_force(freedom.name, i, [drive](const Evaluation& at) { return at.drive_force[drive]; });
+}
+
+void LinkageQuantities::add_driving_force(const std::string& name, FrameIndex i, const Reading& force) {
+  const std::string what = force_name(is_translation(i));
+  add_sampled_load(name + "_drive", force_unit(is_translation(i)), "Driving " + what + " of the coordinate",
+                   "Largest magnitude of the coordinate's driving " + what + " in the whole run", force);
 }
 
 void LinkageQuantities::add_force_elements(const LinkageFreedom& freedom, FrameIndex i) {
-  const bool slides =
-      built_.mechanism.coordinates[static_cast<std::size_t>(i)].motion == Motion::kTranslation;
-  const std::string unit = slides ? "_n" : "_n_m", what = slides ? "force" : "torque";
   std::vector<ActuatorReadings> readings = find_actuator_readings(built_.mechanism, i);
   if (freedom.friction) {
-    const Reading friction = readings.back().force;
+    add_friction(freedom, i, readings.back().force);
     readings.pop_back();
-    add_sampled_load(freedom.name + "_friction", unit,
-                     "Friction in the joint: " + what + " on the coordinate",
-                     "Largest magnitude of the joint's friction " + what + " in the whole run", friction);
-    if (freedom.friction->by_reaction) add_normal_force(freedom, i);
   }
-  if (freedom.load) {
-    const Reading load = readings.back().force;
-    add_channel(freedom.name + "_load" + unit, "Load on the coordinate: " + what + " by its law", load);
-  }
-  if (!freedom.actuator) return;
-  const ActuatorReadings& actuator = readings.front();
-  add_sampled_load(freedom.name + "_drive", unit, "Driving " + what + " of the coordinate",
-                   "Largest magnitude of the coordinate's driving " + what + " in the whole run",
-                   actuator.force);
-  add_sampled_load(freedom.name + "_drive_power", "_w", "Power of the driving " + what,
+  if (freedom.load)
+    add_channel(freedom.name + "_load" + force_unit(is_translation(i)),
+                std::string("Load on the coordinate: ") + force_name(is_translation(i)) + " by its law",
+                readings.back().force);
+  if (freedom.actuator) add_actuator(freedom.name, i, readings.front());
+}
+
+void LinkageQuantities::add_friction(const LinkageFreedom& freedom, FrameIndex i, const Reading& force) {
+  const std::string what = force_name(is_translation(i));
+  add_sampled_load(freedom.name + "_friction", force_unit(is_translation(i)),
+                   "Friction in the joint: " + what + " on the coordinate",
+                   "Largest magnitude of the joint's friction " + what + " in the whole run", force);
+  if (freedom.friction->by_reaction) add_normal_force(freedom, i);
+}
+
+void LinkageQuantities::add_actuator(const std::string& name, FrameIndex i,
+                                     const ActuatorReadings& actuator) {
+  const std::string what = force_name(is_translation(i));
+  add_driving_force(name, i, actuator.force);
+  add_sampled_load(name + "_drive_power", "_w", "Power of the driving " + what,
                    "Largest magnitude of the power of the driving " + what + " in the whole run",
                    actuator.power);
-  if (actuator.current) add_motor(freedom.name, actuator);
-  add_speed(freedom.name, i, slides);
+  if (actuator.current) add_motor(name, actuator);
+  add_speed(name, i);
 }
 
 void LinkageQuantities::add_motor(const std::string& name, const ActuatorReadings& motor) {
@@ -219,10 +234,10 @@ void LinkageQuantities::add_motor(const std::string& name, const ActuatorReading
            motor.electric_work);
 }
 
-void LinkageQuantities::add_speed(const std::string& name, FrameIndex i, bool slides) {
+void LinkageQuantities::add_speed(const std::string& name, FrameIndex i) {
   const std::size_t k = measured_.velocities.size();
   measured_.velocities.push_back(i);
-  add_metric({.key = "mean_" + name + (slides ? "_velocity_m_s" : "_velocity_rad_s"),
+  add_metric({.key = "mean_" + name + (is_translation(i) ? "_velocity_m_s" : "_velocity_rad_s"),
               .help = "Mean velocity of the coordinate in the steady window (t ≥ run_up_s)"},
              [k](const RunMetrics& metrics, const auto&) {
                return metrics.calc_mean_velocity(k);
@@ -248,6 +263,7 @@ void LinkageQuantities::add_normal_force(const LinkageFreedom& freedom, FrameInd
 }
 
 void LinkageQuantities::add_joint(const LinkageJoint& joint, const BuiltJoint& built) {
+  source_ = "joints." + joint.name;
   if (built.cut >= 0) {
     const auto cut = static_cast<std::size_t>(built.cut);
     add_reaction(joint, [cut](const Evaluation& at) {
@@ -277,32 +293,43 @@ void LinkageQuantities::add_reaction(const LinkageJoint& joint,
 }
 
 void LinkageQuantities::add_clearance(const LinkageJoint& joint, std::size_t cut) {
+  add_journal_motion(joint.name, cut);
+  add_radial_contact(joint.name, cut);
+  if (joint.clearance->geometry == ContactGeometry::kJournalInBore) add_sliding_work(joint, cut);
+  if (std::isfinite(joint.clearance->c_a)) add_face_contact(joint.name, cut);
+}
+
+void LinkageQuantities::add_journal_motion(const std::string& name, std::size_t cut) {
   for (int axis = 0; axis < 3; ++axis)
-    add_channel(joint.name + "_journal_" + kAxisNames[axis] + "_mm",
+    add_channel(name + "_journal_" + kAxisNames[axis] + "_mm",
                 std::string("Journal centre in the bearing frame: ") + kAxisNames[axis],
                 [=](const Evaluation& at) { return 1e3 * at.joints[cut].journal.p_bj[axis]; });
-  add_channel(joint.name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
+  add_channel(name + "_journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [=](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[cut].journal); });
-  add_sampled_load(joint.name + "_contact_force", "_n", "Sum of the radial normal forces on the journal",
+}
+
+void LinkageQuantities::add_radial_contact(const std::string& name, std::size_t cut) {
+  add_sampled_load(name + "_contact_force", "_n", "Sum of the radial normal forces on the journal",
                    "Largest sum of the radial normal forces on the journal in the whole run",
                    [=](const Evaluation& at) { return at.joints[cut].load.radial_normal_sum; });
-  add_sampled_load(joint.name + "_friction_force", "_n",
+  add_sampled_load(name + "_friction_force", "_n",
                    "Sum of the magnitudes of the friction forces on the journal",
                    "Largest sum of the magnitudes of the friction forces on the journal in the whole run",
                    [=](const Evaluation& at) { return at.joints[cut].load.friction_sum; });
-  add_load("max_" + joint.name + "_penetration", "_um",
+  add_load("max_" + name + "_penetration", "_um",
            "Largest radial penetration of the journal into the bore in the whole run", 1e6,
            [=](const Evaluation& at) { return at.joints[cut].load.max_penetration; });
-  add_contact_time(joint.name + "_contact_time_ratio",
+  add_contact_time(name + "_contact_time_ratio",
                    "Fraction of the whole run in which the journal touches the bore", {.joint = cut});
-  if (joint.clearance->geometry == ContactGeometry::kJournalInBore) add_sliding_work(joint, cut);
-  if (!std::isfinite(joint.clearance->c_a)) return;
-  add_sampled_load(joint.name + "_face_force", "_n",
+}
+
+void LinkageQuantities::add_face_contact(const std::string& name, std::size_t cut) {
+  add_sampled_load(name + "_face_force", "_n",
                    "Sum of the normal forces of the shoulders on the journal's faces",
                    "Largest sum of the normal forces of the shoulders on the journal's faces in the whole "
                    "run",
                    [=](const Evaluation& at) { return at.joints[cut].load.face_normal_sum; });
-  add_contact_time(joint.name + "_face_contact_time_ratio",
+  add_contact_time(name + "_face_contact_time_ratio",
                    "Fraction of the whole run in which a face of the journal touches its shoulder",
                    {.joint = cut, .of_faces = true});
 }
@@ -327,6 +354,7 @@ void LinkageQuantities::add_contact_time(const std::string& key, const char* hel
 }
 
 void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t index) {
+  source_ = "springs." + spring.name;
   const auto motion = [this, index](const Evaluation& at) {
     return calc_spring_motion(built_.mechanism.springs[index], at.frames);
   };
@@ -338,6 +366,7 @@ void LinkageQuantities::add_spring(const LinkageSpring& spring, std::size_t inde
 }
 
 void LinkageQuantities::add_body_load(const LinkageLoad& load, std::size_t index) {
+  source_ = "loads." + load.name;
   const bool is_force = !load.force.isZero(0.0);
   const auto behind = static_cast<Eigen::Index>(list_applied_forces(built_.mechanism).size() + index);
   add_channel(load.name + (is_force ? "_n" : "_n_m"),
@@ -346,11 +375,18 @@ void LinkageQuantities::add_body_load(const LinkageLoad& load, std::size_t index
 }
 
 void LinkageQuantities::add_accelerometer(const Linkage& linkage, std::size_t index) {
+  const std::string& name = linkage.accelerometers[index].name;
+  source_ = "accelerometers." + name;
+  add_sampled_load(name + "_accelerometer", "_m_s2", "Acceleration that the accelerometer shows",
+                   "Largest magnitude of the acceleration that the accelerometer shows in the whole run",
+                   make_accelerometer_reading(linkage, index));
+}
+
+Reading LinkageQuantities::make_accelerometer_reading(const Linkage& linkage, std::size_t index) const {
   const LinkageAccelerometer& one = linkage.accelerometers[index];
-  const BuiltAccelerometer& place = built_.accelerometers[index];
-  const Reading acceleration = [this, &place, ground = linkage.ground_acceleration,
-                                gravity = linkage.gravity_W, follows_body = one.follows_body,
-                                shows_gravity = one.shows_gravity](const Evaluation& at) {
+  return [this, &place = built_.accelerometers[index], ground = linkage.ground_acceleration,
+          gravity = linkage.gravity_W, follows_body = one.follows_body,
+          shows_gravity = one.shows_gravity](const Evaluation& at) {
     const FrameMotion& body = reactions_.motion(place.frame);
     const Eigen::Vector3d arm = body.R * place.at;
     Eigen::Vector3d a = body.vd + body.wd.cross(arm) + body.w.cross(body.w.cross(arm));
@@ -359,9 +395,6 @@ void LinkageQuantities::add_accelerometer(const Linkage& linkage, std::size_t in
       if (const auto& law = ground[static_cast<std::size_t>(axis)]) a[axis] += calc_signal(*law, at.t).value;
     return a.dot(follows_body ? Eigen::Vector3d(body.R * place.direction) : place.direction);
   };
-  add_sampled_load(one.name + "_accelerometer", "_m_s2", "Acceleration that the accelerometer shows",
-                   "Largest magnitude of the acceleration that the accelerometer shows in the whole run",
-                   acceleration);
 }
 
 void LinkageQuantities::add_energy_channels() {

@@ -46,20 +46,32 @@ class LinkageQuantities {
   [[nodiscard]] std::vector<double> calc_metrics(const RunMetrics& metrics, const RunOutcome& outcome) const;
 
  private:
+  [[nodiscard]] bool is_translation(FrameIndex coordinate) const;
+  void add_joints(const std::vector<LinkageJoint>& joints);
+  void add_coordinates(const LinkageJoint& joint, const BuiltJoint& built);
   void add_coordinate(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_acceleration(const std::string& name, const std::string& unit, FrameIndex coordinate);
+  void add_acceleration_metrics(const std::string& stem, const std::string& unit, FrameIndex coordinate);
   void add_normal_force(const LinkageFreedom& freedom, FrameIndex coordinate);
   void add_drive(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_driving_force(const std::string& name, FrameIndex coordinate, const Reading& force);
   void add_force_elements(const LinkageFreedom& freedom, FrameIndex coordinate);
+  void add_friction(const LinkageFreedom& freedom, FrameIndex coordinate, const Reading& force);
+  void add_actuator(const std::string& name, FrameIndex coordinate, const ActuatorReadings& readings);
   void add_motor(const std::string& name, const ActuatorReadings& readings);
-  void add_speed(const std::string& name, FrameIndex coordinate, bool slides);
+  void add_speed(const std::string& name, FrameIndex coordinate);
   void add_joint(const LinkageJoint& joint, const BuiltJoint& built);
   void add_reaction(const LinkageJoint& joint, const std::function<Wrench(const Evaluation&)>& wrench);
   void add_clearance(const LinkageJoint& joint, std::size_t cut);
+  void add_journal_motion(const std::string& name, std::size_t cut);
+  void add_radial_contact(const std::string& name, std::size_t cut);
+  void add_face_contact(const std::string& name, std::size_t cut);
   void add_sliding_work(const LinkageJoint& joint, std::size_t cut);
   void add_contact_time(const std::string& key, const char* help, Measured::Contact contact);
   void add_spring(const LinkageSpring& spring, std::size_t index);
   void add_body_load(const LinkageLoad& load, std::size_t index);
   void add_accelerometer(const Linkage& linkage, std::size_t index);
+  [[nodiscard]] Reading make_accelerometer_reading(const Linkage& linkage, std::size_t index) const;
   void add_energy_channels();
   void add_run_metrics();
   void add_channel(std::string key, std::string help, Reading read);

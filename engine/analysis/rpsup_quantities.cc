@@ -95,17 +95,7 @@ void add_extremes(std::vector<Channel>& channels, const std::string& stem, const
   }
 }
 
-/// Time and the motion of crank, rod and slider.
-void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channels) {
-  const FrameIndex slider = layout.slider;
-  add_reading(channels, "t_s", "Time", [](const Evaluation& at) { return at.t; }, "t");
-  add_reading(channels, "crank_angle_rad", "Angle of the crank, link (1,1)", position(layout.crank),
-              "ψ^(1,1)");
-  add_reading(channels, "crank_velocity_rad_s", "Angular velocity of the crank", rate(layout.crank),
-              "ψ̇^(1,1)");
-  add_reading(channels, "rod_displacement_m",
-              "Displacement of the telescoping rod, link (1,2), along the crank", position(layout.rod),
-              "z^(1,2)");
+void add_slider_channels(FrameIndex slider, std::vector<Channel>& channels) {
   add_reading(channels, "slider_position_m", "Position of the slider, link (2,1), along its guide",
               position(slider), "z^(2,1)");
   add_reading(channels, "slider_velocity_m_s", "Velocity of the slider", rate(slider), "ż^(2,1)");
@@ -115,6 +105,19 @@ void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channe
        extreme_channels("slider_acceleration", "_m_s2", acceleration, Channel::Kind::kLeastAcceleration,
                         static_cast<std::size_t>(slider)))
     channels.push_back(std::move(channel));
+}
+
+/// Time and the motion of crank, rod and slider.
+void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channels) {
+  add_reading(channels, "t_s", "Time", [](const Evaluation& at) { return at.t; }, "t");
+  add_reading(channels, "crank_angle_rad", "Angle of the crank, link (1,1)", position(layout.crank),
+              "ψ^(1,1)");
+  add_reading(channels, "crank_velocity_rad_s", "Angular velocity of the crank", rate(layout.crank),
+              "ψ̇^(1,1)");
+  add_reading(channels, "rod_displacement_m",
+              "Displacement of the telescoping rod, link (1,2), along the crank", position(layout.rod),
+              "z^(1,2)");
+  add_slider_channels(layout.slider, channels);
 }
 
 /// Adds the channels of a motor that moves crank or rod.
@@ -129,10 +132,7 @@ void add_motor_channels(const std::string& link, const ActuatorReadings& motor, 
               "Electric work of the supply of the " + link + "'s motor since t = 0", motor.electric_work);
 }
 
-/// Motion and loads of the joint between coupler and cross link, and the drives' forces.
-void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>& channels) {
-  const ActuatorReadings crank = drive_readings(rpsup.mechanism, rpsup.layout.crank),
-                         rod = drive_readings(rpsup.mechanism, rpsup.layout.rod);
+void add_journal_channels(std::vector<Channel>& channels) {
   add_reading(channels, "journal_x_mm", "Journal centre in the bearing frame {b}: x, across the axis",
               journal_mm(0));
   add_reading(channels, "journal_y_mm", "Journal centre in the bearing frame {b}: y, across the axis",
@@ -141,6 +141,9 @@ void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>
               journal_mm(2));
   add_reading(channels, "journal_tilt_mrad", "Angle between the axes of journal and bearing",
               [](const Evaluation& at) { return 1e3 * calc_tilt(at.joints[0].journal); });
+}
+
+void add_contact_channels(bool clearance, std::vector<Channel>& channels) {
   add_reading(channels, "contact_force_n",
               "Sum of the radial normal forces on the journal; null without clearance",
               clearance ? &radial_force : &none, "Σ f_n");
@@ -149,12 +152,20 @@ void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>
               "Sum of the magnitudes of the friction forces on the journal; null without clearance",
               clearance ? &friction_force : &none, "Σ |f_t|");
   add_extremes(channels, "friction_force", "_n", friction_force, Load::kFrictionForce, clearance);
+}
+
+void add_drive_channels(const Rpsup& rpsup, std::vector<Channel>& channels) {
+  const ActuatorReadings crank = drive_readings(rpsup.mechanism, rpsup.layout.crank),
+                         rod = drive_readings(rpsup.mechanism, rpsup.layout.rod);
   add_reading(channels, "crank_torque_n_m", "Driving torque of the crank", crank.force);
   add_extremes(channels, "crank_torque", "_n_m", crank.force, Load::kCrankTorque);
   add_reading(channels, "rod_force_n", "Driving force of the telescoping rod", rod.force);
   add_extremes(channels, "rod_force", "_n", rod.force, Load::kRodForce);
   add_motor_channels("crank", crank, Load::kCrankCurrent, channels);
   add_motor_channels("rod", rod, Load::kRodCurrent, channels);
+}
+
+void add_reaction_channels(std::vector<Channel>& channels) {
   add_reading(channels, "reaction_x_n", "Force of the coupler on the cross link: x in the global frame",
               reaction_along(0));
   add_reading(channels, "reaction_y_n", "Force of the coupler on the cross link: y in the global frame",
@@ -164,6 +175,22 @@ void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>
   add_reading(channels, "joint_reaction_n", "Magnitude of the force of the coupler on the cross link",
               reaction);
   add_extremes(channels, "joint_reaction", "_n", reaction, Load::kReaction);
+}
+
+/// Motion and loads of the joint between coupler and cross link, and the drives' forces.
+void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>& channels) {
+  add_journal_channels(channels);
+  add_contact_channels(clearance, channels);
+  add_drive_channels(rpsup, channels);
+  add_reaction_channels(channels);
+}
+
+/// Deflections of the flexible links other than the coupler.
+void add_deflection_channels(const std::vector<BentLink>& links, std::vector<Channel>& channels) {
+  for (const BentLink& link : links)
+    add_reading(channels, link.name + "_deflection_mm",
+                "Distance of the link's end from its place on the undeformed link",
+                [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); });
 }
 
 /// The energy account.
@@ -282,10 +309,7 @@ std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rps
                 return 1e3 * calc_deflection(parameters, rpsup, at);
               });
   add_energy_channels(channels);
-  for (const BentLink& link : rpsup.layout.bent)
-    add_reading(channels, link.name + "_deflection_mm",
-                "Distance of the link's end from its place on the undeformed link",
-                [&link](const Evaluation& at) { return 1e3 * calc_deflection(link, at); });
+  add_deflection_channels(rpsup.layout.bent, channels);
   std::ranges::move(sliding_work.channels(""), std::back_inserter(channels));
   return channels;
 }

@@ -17,6 +17,13 @@ std::string pose_key(const NamedFrame& link, std::string_view part) {
   return key.append(part);
 }
 
+/// Takes a step's curve of a coordinate's acceleration.
+void take_acceleration_curve(const Evaluation& start, const Evaluation& end, FrameIndex i,
+                             SampleExtremes& extremes) {
+  extremes.take_step(start.qdd[i], end.qdd[i]);
+  extremes.take_curve({start.qdd[i], end.qdd[i], end.qd[i] - start.qd[i], end.t - start.t});
+}
+
 }  // namespace
 
 std::array<Channel, 2> extreme_channels(const std::string& stem, const std::string& unit,
@@ -66,13 +73,10 @@ void RunChannels::take_step(const Evaluation& start, const Evaluation& end,
   step_dt_ = end.t - start.t;
   for (Extremes& extremes : extremes_) {
     const Channel& channel = channels_[extremes.channel];
-    if (channel.kind == Channel::Kind::kLeastLoad) {
+    if (channel.kind == Channel::Kind::kLeastLoad)
       extremes.values.take_step(loads[channel.index].start(), loads[channel.index].end());
-    } else {
-      const auto i = static_cast<FrameIndex>(channel.index);
-      extremes.values.take_step(start.qdd[i], end.qdd[i]);
-      extremes.values.take_curve({start.qdd[i], end.qdd[i], end.qd[i] - start.qd[i], step_dt_});
-    }
+    else
+      take_acceleration_curve(start, end, static_cast<FrameIndex>(channel.index), extremes.values);
   }
   taken_ = 0.0;
 }

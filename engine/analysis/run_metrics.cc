@@ -19,12 +19,7 @@ RunMetrics::RunMetrics(Measured measured)
       contact_times_(measured_.contacts.size()) {}
 
 void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
-  if (!started_) {
-    started_ = true;
-    first_balance_ = start.energy.calc_balance();
-    first_potential_ = start.energy.potential;
-    last_energy_ = start.energy;
-  }
+  if (!started_) begin(start.energy);
   for (std::size_t k = 0; k < accelerations_.size(); ++k)
     take_acceleration(measured_.accelerations[k], start, end, accelerations_[k]);
   for (std::size_t k = 0; k < velocities_.size(); ++k)
@@ -33,13 +28,14 @@ void RunMetrics::take_step(const Evaluation& start, const Evaluation& end) {
   take_loads(start, end);
   take_energy(last_energy_, end.energy);
   last_energy_ = end.energy;
-  // Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a
-  // step holds in all of it.
-  for (std::size_t k = 0; k < contact_times_.size(); ++k) {
-    const ContactLoad& load = start.joints[measured_.contacts[k].joint].load;
-    if (measured_.contacts[k].of_faces ? load.face_touches : load.max_penetration > 0.0)
-      contact_times_[k] += end.t - start.t;
-  }
+  take_contacts(start, end.t - start.t);
+}
+
+void RunMetrics::begin(const EnergyAccount& start) {
+  started_ = true;
+  first_balance_ = start.calc_balance();
+  first_potential_ = start.potential;
+  last_energy_ = start;
 }
 
 void RunMetrics::take_acceleration(FrameIndex i, const Evaluation& start, const Evaluation& end,
@@ -73,6 +69,16 @@ void RunMetrics::take_loads(const Evaluation& start, const Evaluation& end) {
   wants_middle_ = false;
   for (std::size_t k = 0; k < loads_.size(); ++k)
     wants_middle_ |= loads_[k].take_step(start_loads_[k], measured_.loads[k](end), start.t, end.t);
+}
+
+/// Steps end just beyond an onset or a parting (rk4's up to a step later), so what holds at the start of a
+/// step holds in all of it.
+void RunMetrics::take_contacts(const Evaluation& start, double dt) {
+  for (std::size_t k = 0; k < contact_times_.size(); ++k) {
+    const ContactLoad& load = start.joints[measured_.contacts[k].joint].load;
+    if (measured_.contacts[k].of_faces ? load.face_touches : load.max_penetration > 0.0)
+      contact_times_[k] += dt;
+  }
 }
 
 void RunMetrics::take_middle(const Evaluation& middle) {

@@ -82,12 +82,14 @@ class RunMetrics {
   [[nodiscard]] double calc_energy_residual() const;
 
  private:
+  void begin(const EnergyAccount& start);
   void take_acceleration(FrameIndex coordinate, const Evaluation& start, const Evaluation& end,
                          Acceleration& taken) const;
   void take_velocity(FrameIndex coordinate, const Evaluation& start, const Evaluation& end,
                      Velocity& taken) const;
   void take_loads(const Evaluation& start, const Evaluation& end);
   void take_energy(const EnergyAccount& start, const EnergyAccount& end);
+  void take_contacts(const Evaluation& start, double dt);
 
   Measured measured_;
   std::vector<Acceleration> accelerations_;

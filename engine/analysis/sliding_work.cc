@@ -99,29 +99,32 @@ double SlidingWork::total() const {
 }
 
 std::vector<Channel> SlidingWork::channels(const std::string& prefix) const {
-  const bool has_clearance = joint_.c_r > 0.0;
   std::vector<Channel> channels;
-  for (std::size_t ring = 0; ring < after_.size(); ++ring) {
-    const auto add = [&](const char* ending, const char* more, double Ring::*part) {
-      Channel& channel = channels.emplace_back();
-      channel.info.key = prefix + "ring_" + std::to_string(ring + 1) + "_sliding_work" + ending;
-      channel.info.help =
-          "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
-      channel.info.help += more;
-      if (has_clearance)
-        channel.read = [this, ring, part](const Evaluation& instant) {
-          return at(ring, fraction_of(instant.t)).*part;
-        };
-      else
-        channel.read = [](const Evaluation&) { return kNoValue; };
-    };
-    add("_j", prefix.empty() ? "; null without clearance" : "", &Ring::work);
-    add("_x_j", ", weighted with x of the contact normal", &Ring::work_x);
-    add("_y_j", ", weighted with y of the contact normal", &Ring::work_y);
-    if (joint_.worn)
-      add("_penetration_j_m", ", weighted with the penetration; of worn bores only", &Ring::work_delta);
-  }
+  for (std::size_t ring = 0; ring < after_.size(); ++ring) add_ring_channels(prefix, ring, channels);
   return channels;
+}
+
+void SlidingWork::add_ring_channels(const std::string& prefix, std::size_t ring,
+                                    std::vector<Channel>& channels) const {
+  const auto add = [&](const char* ending, const char* more, double Ring::*part) {
+    Channel& channel = channels.emplace_back();
+    channel.info.key = prefix + "ring_" + std::to_string(ring + 1) + "_sliding_work" + ending;
+    channel.info.help =
+        "Time integral of normal force × sliding speed of this ring of the journal since t = 0";
+    channel.info.help += more;
+    channel.read = make_reading(ring, part);
+  };
+  add("_j", prefix.empty() ? "; null without clearance" : "", &Ring::work);
+  add("_x_j", ", weighted with x of the contact normal", &Ring::work_x);
+  add("_y_j", ", weighted with y of the contact normal", &Ring::work_y);
+  if (joint_.worn)
+    add("_penetration_j_m", ", weighted with the penetration; of worn bores only", &Ring::work_delta);
+}
+
+Reading SlidingWork::make_reading(std::size_t ring, double Ring::*part) const {
+  const bool has_clearance = joint_.c_r > 0.0;
+  if (!has_clearance) return [](const Evaluation&) { return kNoValue; };
+  return [this, ring, part](const Evaluation& instant) { return at(ring, fraction_of(instant.t)).*part; };
 }
 
 }  // namespace engine

@@ -62,6 +62,9 @@ class SlidingWork {
   /// Adds so much time of what an instant has: f_n |v_t| and its direction, of each ring. @param joint  as
   /// calc_ring_contacts() had it
   void add(const JointState& joint, double time);
+  void add_ring_channels(const std::string& prefix, std::size_t ring, std::vector<Channel>& channels) const;
+  /// Reads a part of a ring's; null without clearance.
+  [[nodiscard]] Reading make_reading(std::size_t ring, double Ring::*part) const;
 
   const ClearanceParameters joint_;  ///< c_r = 0: without clearance
   const std::size_t index_;
