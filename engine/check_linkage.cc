@@ -72,23 +72,29 @@ std::string owner_of(const Linkage& linkage, const BuiltLinkage& built, FrameInd
   return "";
 }
 
-/// Mass matrix of some coordinates, from the kinetic energies of unit speeds, alone and by twos.
-/// @param alone  only its diagonal
-Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled,
-                                 const std::vector<FrameIndex>& coordinates, bool alone) {
-  Eigen::VectorXd qd = Eigen::VectorXd::Zero(assembled.q.size());
-  const Eigen::VectorXd qdd = qd;
+/// Kinetic energies of unit speeds of some coordinates: alone on the diagonal, by twos beside it.
+/// @param alone  only the diagonal
+Eigen::MatrixXd calc_unit_energies(const Mechanism& m, const Evaluation& assembled,
+                                   const std::vector<FrameIndex>& coordinates, bool alone) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(assembled.q.size());
   std::vector<FrameMotion> frames(m.coordinates.size());
   const auto n = static_cast<Eigen::Index>(coordinates.size());
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = alone ? i : 0; k <= i; ++k) {
-      qd.setZero();
+      Eigen::VectorXd qd = none;
       qd[coordinates[static_cast<std::size_t>(i)]] = 1.0;
       qd[coordinates[static_cast<std::size_t>(k)]] = 1.0;
-      calc_frame_motions(m, assembled.q, qd, qdd, frames);
-      M(i, k) = M(k, i) = calc_kinetic_energy(m, frames, qd);
+      calc_frame_motions(m, assembled.q, qd, none, frames);
+      T(i, k) = T(k, i) = calc_kinetic_energy(m, frames, qd);
     }
+  return T;
+}
+
+/// Mass matrix of some coordinates. @param alone  only its diagonal
+Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled,
+                                 const std::vector<FrameIndex>& coordinates, bool alone) {
+  Eigen::MatrixXd M = calc_unit_energies(m, assembled, coordinates, alone);
   const Eigen::VectorXd energies = M.diagonal();
   M.colwise() -= energies;
   M.rowwise() -= energies.transpose();
@@ -101,18 +107,24 @@ bool closes_loops(const Mechanism& mechanism) {
   return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
 }
 
-/// Where loops are solved with masses, no free coordinate may carry next to nothing beside the others:
-/// rounding of the heavy bodies' motion would move the light ones.
-void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built,
-                       const std::vector<FrameIndex>& free) {
-  constexpr double kLeast = 5e-9;  // below, steps shrink to nothing
-  const std::vector<Coordinate>& coordinates = built.mechanism.coordinates;
+/// Mass that each coordinate carries, that of coordinates behind it included.
+std::vector<double> calc_carried_masses(const std::vector<Coordinate>& coordinates) {
   std::vector<double> carried(coordinates.size());
   for (std::size_t i = coordinates.size(); i-- > 0;) {
     if (coordinates[i].role == CoordinateRole::kJoint) carried[i] += coordinates[i].mass;
     if (coordinates[i].parent != kGround)
       carried[static_cast<std::size_t>(coordinates[i].parent)] += carried[i];
   }
+  return carried;
+}
+
+/// Where loops are solved with masses, no free coordinate may carry next to nothing beside the others:
+/// rounding of the heavy bodies' motion would move the light ones.
+void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built,
+                       const std::vector<FrameIndex>& free) {
+  constexpr double kLeast = 5e-9;  // below, steps shrink to nothing
+  const std::vector<Coordinate>& coordinates = built.mechanism.coordinates;
+  const std::vector<double> carried = calc_carried_masses(coordinates);
   const double most = *std::ranges::max_element(carried);
   for (const FrameIndex i : free)
     if (const double ratio = carried[static_cast<std::size_t>(i)] / most; ratio < kLeast) {
@@ -125,20 +137,10 @@ void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built,
     }
 }
 
-/// No free coordinate may move nothing that has mass, nor may several together.
-void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
-                  const std::vector<FrameIndex>& free) {
-  constexpr double kNothing = 1e-15;     // [kg m^2] or [kg], of what the heaviest freedom moves
-  // Least eigenvalue of the matrix with its diagonal scaled to 1: rounding.
-  constexpr double kNoneOfThem = 1e-13;
-  constexpr std::size_t kMany = 60;      // whose matrix would take long
-  if (free.empty()) return;
-  const bool alone = free.size() > kMany;
-  Mechanism mechanism = built.mechanism;
-  Evaluation at = assembled;
-  SphericalCharts(mechanism).update(mechanism, at.q, at.qd);
-  const Eigen::MatrixXd M = calc_mass_matrix(mechanism, at, free, alone);
-  const Eigen::VectorXd moved = M.diagonal();
+/// No free coordinate may move nothing that has mass. @param moved  by each, [kg m^2] or [kg]
+void check_moved_masses(const Linkage& linkage, const BuiltLinkage& built,
+                        const std::vector<FrameIndex>& free, const Eigen::VectorXd& moved) {
+  constexpr double kNothing = 1e-15;  // of what the heaviest freedom moves
   for (std::size_t k = 0; k < free.size(); ++k)
     if (!(moved[static_cast<Eigen::Index>(k)] > kNothing * moved.maxCoeff()))
       throw InvalidInput(
@@ -146,7 +148,13 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
           "is free to move by its coordinate " +
               built.mechanism.coordinates[static_cast<std::size_t>(free[k])].name +
               ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
-  if (alone) return;
+}
+
+/// Nor may several together.
+void check_mass_matrix(const Eigen::MatrixXd& M) {
+  // Least eigenvalue of the matrix with its diagonal scaled to 1: rounding.
+  constexpr double kNoneOfThem = 1e-13;
+  const Eigen::VectorXd moved = M.diagonal();
   const Eigen::VectorXd scale = moved.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
   if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
@@ -158,6 +166,29 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
                        "axis, say): give the bodies that they carry some, or drive them");
 }
 
+void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
+                  const std::vector<FrameIndex>& free) {
+  constexpr std::size_t kMany = 60;  // whose matrix would take long
+  if (free.empty()) return;
+  const bool alone = free.size() > kMany;
+  Mechanism mechanism = built.mechanism;
+  Evaluation at = assembled;
+  SphericalCharts(mechanism).update(mechanism, at.q, at.qd);
+  const Eigen::MatrixXd M = calc_mass_matrix(mechanism, at, free, alone);
+  check_moved_masses(linkage, built, free, M.diagonal());
+  if (!alone) check_mass_matrix(M);
+}
+
+/// What the free coordinates of joints carry.
+void check_free_coordinates(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
+                            std::vector<FrameIndex> free) {
+  std::erase_if(free, [&](FrameIndex i) {
+    return built.mechanism.coordinates[static_cast<std::size_t>(i)].role != CoordinateRole::kJoint;
+  });
+  check_masses(linkage, built, assembled, free);
+  if (closes_loops(built.mechanism)) check_mass_ratios(linkage, built, free);
+}
+
 /// The linkage's joint that is one of the mechanism's cut joints.
 std::string name_of_cut(const Linkage& linkage, const BuiltLinkage& built, int cut) {
   const auto found =
@@ -165,19 +196,23 @@ std::string name_of_cut(const Linkage& linkage, const BuiltLinkage& built, int c
   return linkage.joints[static_cast<std::size_t>(found - built.joints.begin())].name;
 }
 
-/// The cut joint whose parts stand furthest apart.
-std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& at) {
+/// Distance of the parts of a cut joint, [m]
+double calc_gap(const CutJoint& joint, const Evaluation& at) {
   const auto point_of = [&](FrameIndex frame, const Placement& placement) -> Eigen::Vector3d {
     const FrameMotion body = motion_of(frame, at.frames);
     return body.p + body.R * placement.p;
   };
+  return (point_of(joint.journal_frame, joint.journal) - point_of(joint.bearing_frame, joint.bearing)).norm();
+}
+
+/// The cut joint whose parts stand furthest apart.
+std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& at) {
   std::string widest;
   double most = -1.0;
   for (std::size_t k = 0; k < built.joints.size(); ++k) {
     if (built.joints[k].cut < 0) continue;
     const CutJoint& joint = built.mechanism.cut_joints[static_cast<std::size_t>(built.joints[k].cut)];
-    const double gap =
-        (point_of(joint.journal_frame, joint.journal) - point_of(joint.bearing_frame, joint.bearing)).norm();
+    const double gap = calc_gap(joint, at);
     if (gap > most) {
       most = gap;
       widest = linkage.joints[k].name;
@@ -193,6 +228,39 @@ bool is_loose(const Linkage& linkage, const std::string& field) {
   });
 }
 
+/// Why loops that are left with a gap do not close. @param loose  whether the joint there is
+std::string describe_open_loop(const LoopClosure& closure, bool loose) {
+  if (!closure.rates_fit())
+    return "would be torn apart by the start rates given: they and the drives contradict each other";
+  if (loose)
+    return "is not within its clearance at t = 0: a start of one of its coordinates, or of "
+           "another joint's, is beyond the play (that along the axis is "
+           "axial_clearance_mm), or the loops do not close";
+  return "does not close at t = 0: the nearest position found leaves a gap of " +
+         std::to_string(closure.residual()) +
+         " m (or between right angles); other lengths, or a guess or start of a "
+         "coordinate nearer to the closed "
+         "position, may help";
+}
+
+[[noreturn]] void refuse_open_loops(const Linkage& linkage, const BuiltLinkage& built,
+                                    const LoopClosure& closure, const Evaluation& assembled) {
+  if (closure.turned_over_joint() >= 0)
+    throw InvalidInput("joints." + name_of_cut(linkage, built, closure.turned_over_joint()),
+                       "closes at t = 0 only with its second body turned over by a half turn; a guess or "
+                       "start of a coordinate nearer to the right position, or other axes, may help");
+  const std::string joint = widest_gap(linkage, built, assembled);
+  throw InvalidInput(joint, describe_open_loop(closure, is_loose(linkage, joint)));
+}
+
+void check_start_of_drives(LoopClosure& closure, const Evaluation& assembled) {
+  if (!closure.drives_can_start(assembled))
+    throw InvalidInput("joints",
+                       "cannot follow their drives: these move against each other, or against joints that "
+                       "close loops; let one of the "
+                       "drives go, or a joint that closes a loop allow the motion");
+}
+
 }  // namespace
 
 BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
@@ -201,41 +269,12 @@ BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator) {
   const MotionSystem system(built.mechanism);
   LoopClosure closure(built.mechanism);
   Evaluation assembled = system.make_evaluation();
-  if (!closure.assemble(0.0, assembled)) {
-    if (closure.turned_over_joint() >= 0)
-      throw InvalidInput("joints." + name_of_cut(linkage, built, closure.turned_over_joint()),
-                         "closes at t = 0 only with its second body turned over by a half turn; a guess or "
-                         "start of a coordinate nearer to the right position, or other axes, may help");
-    const std::string joint = widest_gap(linkage, built, assembled);
-    if (!closure.rates_fit())
-      throw InvalidInput(
-          joint, "would be torn apart by the start rates given: they and the drives contradict each other");
-    if (is_loose(linkage, joint))
-      throw InvalidInput(joint,
-                         "is not within its clearance at t = 0: a start of one of its coordinates, or of "
-                         "another joint's, is beyond the play (that along the axis is "
-                         "axial_clearance_mm), or the loops do not close");
-    throw InvalidInput(joint, "does not close at t = 0: the nearest position found leaves a gap of " +
-                                  std::to_string(closure.residual()) +
-                                  " m (or between right angles); other lengths, or a guess or start of a "
-                                  "coordinate nearer to the closed "
-                                  "position, may help");
-  }
-  if (!closure.drives_can_start(assembled))
-    throw InvalidInput("joints",
-                       "cannot follow their drives: these move against each other, or against joints that "
-                       "close loops; let one of the "
-                       "drives go, or a joint that closes a loop allow the motion");
+  if (!closure.assemble(0.0, assembled)) refuse_open_loops(linkage, built, closure, assembled);
+  check_start_of_drives(closure, assembled);
   // If the drives determine the motion, masses need not.
   if (!allows_kinematics(built.mechanism, integrator) ||
-      closure.find_determinacy(assembled) == LoopClosure::Determinacy::kFree) {
-    std::vector<FrameIndex> free = system.free_coordinates();
-    std::erase_if(free, [&](FrameIndex i) {
-      return built.mechanism.coordinates[static_cast<std::size_t>(i)].role != CoordinateRole::kJoint;
-    });
-    check_masses(linkage, built, assembled, free);
-    if (closes_loops(built.mechanism)) check_mass_ratios(linkage, built, free);
-  }
+      closure.find_determinacy(assembled) == LoopClosure::Determinacy::kFree)
+    check_free_coordinates(linkage, built, assembled, system.free_coordinates());
   settle_springs(linkage, built, assembled);
   return built;
 }

@@ -44,23 +44,26 @@ bool is_inertia_of_a_body(const Eigen::Vector3d& I) {
 /// Along which of its axes a link lies: x, but for the cross link.
 bool is_along_z(std::size_t link) { return link == static_cast<std::size_t>(Link::k22); }
 
+/// @param length  of the link: its centre of mass is in the middle
+void check_inertia(const LinkInertia& link, double length, bool lies_along_z, const std::string& field) {
+  require(link.inertia.allFinite() && is_inertia_of_a_body(link.inertia), field,
+          "three moments above 0, none of them larger than the sum of the other two");
+  const double steiner = link.mass * 0.25 * length * length;
+  const Eigen::Vector3d along = lies_along_z ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  require(is_inertia_of_a_body(link.inertia - steiner * (Eigen::Vector3d::Ones() - along)), field,
+          "those of a body about its frame's origin: about the centre of mass, at " +
+              std::string(lies_along_z ? "z" : "x") + " = " + to_text(0.5 * length) +
+              " m, they break I_x <= I_y + I_z or are not above 0");
+}
+
 void check_links(const RpsupParameters& p) {
   static constexpr std::array<const char*, kLinkCount> names{"1,1", "1,2", "1,3", "2,1", "2,2"};
   const std::array<double, kLinkCount> lengths{p.crank_length, p.rod_length, p.coupler_length, 0.0,
                                                p.cross_length};
   for (std::size_t k = 0; k < kLinkCount; ++k) {
     const std::string name = std::string("links.") + names[k];
-    const LinkInertia& link = p.links[k];
-    require_positive(link.mass, name + ".mass");
-    const std::string field = name + ".inertia";
-    require(link.inertia.allFinite() && is_inertia_of_a_body(link.inertia), field,
-            "three moments above 0, none of them larger than the sum of the other two");
-    const double steiner = link.mass * 0.25 * lengths[k] * lengths[k];
-    const Eigen::Vector3d along = is_along_z(k) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
-    require(is_inertia_of_a_body(link.inertia - steiner * (Eigen::Vector3d::Ones() - along)), field,
-            "those of a body about its frame's origin: about the centre of mass, at " +
-                std::string(is_along_z(k) ? "z" : "x") + " = " + to_text(0.5 * lengths[k]) +
-                " m, they break I_x <= I_y + I_z or are not above 0");
+    require_positive(p.links[k].mass, name + ".mass");
+    check_inertia(p.links[k], lengths[k], is_along_z(k), name + ".inertia");
   }
 }
 
@@ -129,6 +132,16 @@ void check_friction(const RpsupParameters& p) {
           "above v_0, " + to_text(p.v_0) + " m/s");
 }
 
+/// @param sectors  of each ring  @param most  the deepest wear, [m]
+void check_ring_wear(const std::vector<double>& ring, std::size_t sectors, double most) {
+  require(ring.size() >= 3 && ring.size() == sectors, "wear_depth",
+          "lists of the same three sectors or more");
+  for (const double depth : ring)
+    require(
+        depth >= 0.0 && depth <= most, "wear_depth",
+        "shallow: at least 0 and at most a tenth of the bearing radius, " + to_text(1e6 * most) + " um");
+}
+
 void check_wear(const RpsupParameters& p) {
   if (p.wear_depth.empty()) return;
   require(p.c_r > 0.0, "wear_depth", "left out for the ideal joint, which has no bore to wear");
@@ -137,14 +150,20 @@ void check_wear(const RpsupParameters& p) {
   require(p.wear_depth.size() == static_cast<std::size_t>(p.radial_levels), "wear_depth",
           "one list for each of the rings, " + std::to_string(p.radial_levels));
   const double most = kMostWear * p.bearing_radius;
-  for (const std::vector<double>& ring : p.wear_depth) {
-    require(ring.size() >= 3 && ring.size() == p.wear_depth.front().size(), "wear_depth",
-            "lists of the same three sectors or more");
-    for (const double depth : ring)
-      require(
-          depth >= 0.0 && depth <= most, "wear_depth",
-          "shallow: at least 0 and at most a tenth of the bearing radius, " + to_text(1e6 * most) + " um");
-  }
+  for (const std::vector<double>& ring : p.wear_depth)
+    check_ring_wear(ring, p.wear_depth.front().size(), most);
+}
+
+void check_contact_force(const RpsupParameters& p) {
+  require(p.restitution >= 0.0 && p.restitution <= 1.0, "restitution", "at least 0 and at most 1");
+  require(p.restitution > 0.0 || has_zero_restitution(p.normal_law), "restitution",
+          "above 0 with gonthier, flores or hu_guo, whose damping grows without bound there");
+  require_positive(p.contact_stiffness_scale, "contact_stiffness_scale");
+  require_not_negative(p.axial_stiffness, "axial_stiffness");
+  require_positive(p.minimum_impact_velocity, "minimum_impact_velocity");
+  require_not_negative(p.contact_damping, "contact_damping");
+  require(p.stiffness_law == StiffnessLaw::kHertz || p.contact == ContactForm::kContinuum, "stiffness_law",
+          "hertz for contact elements: the others are laws of a whole ring");
 }
 
 void check_joint(const RpsupParameters& p) {
@@ -157,15 +176,7 @@ void check_joint(const RpsupParameters& p) {
   require(p.radial_elements >= 3, "radial_elements", "at least 3");
   require(p.axial_levels >= 1, "axial_levels", "at least 1");
   require(p.axial_elements >= 3, "axial_elements", "at least 3");
-  require(p.restitution >= 0.0 && p.restitution <= 1.0, "restitution", "at least 0 and at most 1");
-  require(p.restitution > 0.0 || has_zero_restitution(p.normal_law), "restitution",
-          "above 0 with gonthier, flores or hu_guo, whose damping grows without bound there");
-  require_positive(p.contact_stiffness_scale, "contact_stiffness_scale");
-  require_not_negative(p.axial_stiffness, "axial_stiffness");
-  require_positive(p.minimum_impact_velocity, "minimum_impact_velocity");
-  require_not_negative(p.contact_damping, "contact_damping");
-  require(p.stiffness_law == StiffnessLaw::kHertz || p.contact == ContactForm::kContinuum, "stiffness_law",
-          "hertz for contact elements: the others are laws of a whole ring");
+  check_contact_force(p);
   check_friction(p);
   check_wear(p);
 }
@@ -264,23 +275,34 @@ double find_least(const Function& function, double from, double to) {
   return 0.5 * (from + to);
 }
 
+constexpr double kYokeMeets = 1e-9;  // arm at which the ways to assemble the linkage meet, [m]
+
+/// True if the S joint is further from the guide than the cross link is long for whatever crank angle and
+/// rod position: no need to look at instants then.
+bool is_always_apart(const RpsupParameters& p, double duration) {
+  const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) -
+                       calc_farthest_rod(p, duration) * std::abs(std::sin(p.guide_angle));
+  return apart > p.cross_length + kYokeMeets;
+}
+
+/// Instant of the yoke's shortest arm beside t, if it is shorter at t than an interval before and after;
+/// else t.
+double find_shortest_arm(const RpsupParameters& p, double t, double interval, double duration) {
+  const auto arm = [&p](double at) { return calc_yoke_arm(p, at); };
+  const double before = std::max(0.0, t - interval), after = std::min(duration, t + interval);
+  return arm(t) <= std::min(arm(before), arm(after)) ? find_least(arm, before, after) : t;
+}
+
 /// With the yoke about the guide the S joint must be further from the guide than the cross link is long: at
 /// that distance both ways to assemble the linkage meet, and a cross link without length could turn freely.
 void check_yoke(const RpsupParameters& p, double duration) {
-  constexpr double kMeets = 1e-9;  // [m]
-  const auto arm = [&p](double t) { return calc_yoke_arm(p, t); };
-  if (p.yoke_axis != YokeAxis::kGuide) return;
-  const double apart = std::abs(p.guide_offset_z * std::cos(p.guide_angle)) -
-                       calc_farthest_rod(p, duration) * std::abs(std::sin(p.guide_angle));
-  if (apart > p.cross_length + kMeets) return;
+  if (p.yoke_axis != YokeAxis::kGuide || is_always_apart(p, duration)) return;
   const double interval = calc_time_between_looks(p, duration);
   const auto looks = static_cast<long>(std::ceil(duration / interval));
   for (long k = 0; k <= looks; ++k) {
-    double t = std::min(static_cast<double>(k) * interval, duration);
-    if (const double before = std::max(0.0, t - interval), after = std::min(duration, t + interval);
-        arm(t) <= std::min(arm(before), arm(after)))
-      t = find_least(arm, before, after);
-    if (arm(t) > kMeets) continue;
+    const double look = std::min(static_cast<double>(k) * interval, duration);
+    const double t = find_shortest_arm(p, look, interval, duration);
+    if (calc_yoke_arm(p, t) > kYokeMeets) continue;
     throw InvalidInput(
         "yoke",
         describe_instant("the linkage cannot be assembled", "the linkage locks at t = ", k == 0 ? 0.0 : t) +

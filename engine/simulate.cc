@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulate.h"
 
+#include <optional>
 #include <string>
 
 #include "engine/dynamics/loop_closure.h"
@@ -33,6 +34,31 @@ std::string describe_assembly_fault(const LoopClosure& closure) {
          std::to_string(closure.residual()) + " m";
 }
 
+std::string describe_lock(LoopClosure::Start start) {
+  if (start == LoopClosure::Start::kImmovable)
+    return "the linkage cannot move from its start, though velocities could be given: its links "
+           "are stretched into one line, say";
+  return "no accelerations satisfy the joints and the drives at t = 0";
+}
+
+/// The outcome of a run that cannot begin from its start.
+std::optional<RunOutcome> find_start_fault(const Mechanism& mechanism, LoopClosure& closure,
+                                           LoopClosure::Determinacy determinacy,
+                                           const Evaluation& assembled) {
+  if (determinacy == LoopClosure::Determinacy::kSingularStart)
+    return RunOutcome{.status = RunStatus::kSingular,
+                      .detail = describe_change_point(mechanism, assembled) +
+                                "; start beside it, or give another coordinate its start and start rate"};
+  if (determinacy == LoopClosure::Determinacy::kDetermined) return std::nullopt;
+  const LoopClosure::Start start = closure.find_start(assembled);
+  if (start == LoopClosure::Start::kRegular) return std::nullopt;
+  if (start == LoopClosure::Start::kChangePoint)
+    return RunOutcome{.status = RunStatus::kSingular,
+                      .detail = describe_change_point(mechanism, assembled) +
+                                "; start beside it, or with rates along one of the ways"};
+  return RunOutcome{.status = RunStatus::kLockUp, .detail = describe_lock(start)};
+}
+
 RunOutcome integrate(const Mechanism& mechanism, const RunOptions& options, Observer& observer,
                      const Evaluation& assembled, Eigen::Index redundant) {
   if (redundant == 0) return Integration(mechanism, options, observer).run(assembled);
@@ -52,24 +78,7 @@ RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Obser
   const Determinacy determinacy = allows_kinematics(mechanism, options.integrator)
                                       ? closure.find_determinacy(assembled)
                                       : Determinacy::kFree;
-  if (determinacy == Determinacy::kSingularStart)
-    return {.status = RunStatus::kSingular,
-            .detail = describe_change_point(mechanism, assembled) +
-                      "; start beside it, or give another coordinate its start and start rate"};
-  if (determinacy == Determinacy::kFree) {
-    const LoopClosure::Start start = closure.find_start(assembled);
-    if (start == LoopClosure::Start::kChangePoint)
-      return {.status = RunStatus::kSingular,
-              .detail = describe_change_point(mechanism, assembled) +
-                        "; start beside it, or with rates along one of the ways"};
-    if (start == LoopClosure::Start::kImmovable)
-      return {.status = RunStatus::kLockUp,
-              .detail = "the linkage cannot move from its start, though velocities could be given: its links "
-                        "are stretched into one line, say"};
-    if (start == LoopClosure::Start::kContradiction)
-      return {.status = RunStatus::kLockUp,
-              .detail = "no accelerations satisfy the joints and the drives at t = 0"};
-  }
+  if (const auto fault = find_start_fault(mechanism, closure, determinacy, assembled)) return *fault;
   RunOutcome outcome = determinacy == Determinacy::kDetermined
                            ? run_kinematics(mechanism, closure, options, observer, assembled)
                            : integrate(mechanism, options, observer, assembled, closure.redundant());
