@@ -56,28 +56,33 @@ AppliedForceValue to_value(const Derived& d) {
   return {.force = d.value, .by_t = d.by_t, .by_q = {d.by_q, 0.0}, .by_v = {d.by_v, d.by_integral}};
 }
 
-void calc_forces(const ForceLaw& law, double t, const ElementState& state, AppliedForceValue* values) {
-  AppliedForceValue& value = values[0];
-  value = {};
+/// What the force of a law is a function of.
+double read_variable(const ForceLaw& law, double t, const ElementState& state) {
   switch (law.variable) {
-    case ForceLaw::Variable::kTime: {
-      const SignalPoint point = calc_signal(law.law, t);
-      value.force = point.value;
+    case ForceLaw::Variable::kTime:
+      return t;
+    case ForceLaw::Variable::kPosition:
+      return state.q;
+    case ForceLaw::Variable::kVelocity:
+      return state.v;
+  }
+  return t;
+}
+
+void calc_forces(const ForceLaw& law, double t, const ElementState& state, AppliedForceValue* values) {
+  const SignalPoint point = calc_signal(law.law, read_variable(law, t, state));
+  AppliedForceValue& value = values[0];
+  value = {.force = point.value};
+  switch (law.variable) {
+    case ForceLaw::Variable::kTime:
       value.by_t = point.slope;
       return;
-    }
-    case ForceLaw::Variable::kPosition: {
-      const SignalPoint point = calc_signal(law.law, state.q);
-      value.force = point.value;
+    case ForceLaw::Variable::kPosition:
       value.by_q[0] = point.slope;
       return;
-    }
-    case ForceLaw::Variable::kVelocity: {
-      const SignalPoint point = calc_signal(law.law, state.v);
-      value.force = point.value;
+    case ForceLaw::Variable::kVelocity:
       value.by_v[0] = point.slope;
       return;
-    }
   }
 }
 
@@ -202,6 +207,18 @@ FrameIndex add_auxiliary(Mechanism& mechanism, std::string name, CoordinateRole 
   return static_cast<FrameIndex>(mechanism.coordinates.size()) - 1;
 }
 
+/// Adds the coordinate in which an element has its integral or its bristle.
+/// @returns kGround if it needs none
+FrameIndex add_memory(Mechanism& mechanism, const std::string& name, const ForceElement& element) {
+  const Controller* const controller = controller_of(element);
+  if (controller && controller->integral != 0.0)
+    return add_auxiliary(mechanism, name + "_integral", CoordinateRole::kMemory, 1.0);
+  const auto* const friction = std::get_if<JointFriction>(&element);
+  if (friction && has_bristles(friction->law.law))
+    return add_auxiliary(mechanism, name + "_bristle", CoordinateRole::kMemory, 1.0);
+  return kGround;
+}
+
 }  // namespace
 
 std::vector<AppliedForce> list_applied_forces(const Actuation& actuation) {
@@ -265,12 +282,7 @@ void add_actuation(Mechanism& mechanism, FrameIndex coordinate, const ForceEleme
         add_auxiliary(mechanism, name + "_charge", CoordinateRole::kCharge, motor->inductance);
     mechanism.coordinates.back().damping = motor->resistance;
   }
-  const Controller* const controller = controller_of(element);
-  if (controller && controller->integral != 0.0)
-    actuation.memory = add_auxiliary(mechanism, name + "_integral", CoordinateRole::kMemory, 1.0);
-  const auto* const friction = std::get_if<JointFriction>(&element);
-  if (friction && has_bristles(friction->law.law))
-    actuation.memory = add_auxiliary(mechanism, name + "_bristle", CoordinateRole::kMemory, 1.0);
+  actuation.memory = add_memory(mechanism, name, element);
   mechanism.actuations.push_back(std::move(actuation));
 }
 

@@ -51,11 +51,7 @@ class LinkageBuilder {
   }
 
   BuiltLinkage build() {
-    for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
-      if (!linkage_.joints[k].cut) add_carrying(linkage_.joints[k], built_.joints[k]);
-    for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
-      if (linkage_.joints[k].cut || linkage_.joints[k].clearance)
-        add_cut(linkage_.joints[k], built_.joints[k]);
+    add_joints();
     for (const LinkageSpring& spring : linkage_.springs) add_spring(spring);
     for (const LinkageLoad& load : linkage_.loads) add_load(load);
     for (const LinkageAccelerometer& one : linkage_.accelerometers) add_accelerometer(one);
@@ -70,6 +66,14 @@ class LinkageBuilder {
   }
 
  private:
+  void add_joints() {
+    for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
+      if (!linkage_.joints[k].cut) add_carrying(linkage_.joints[k], built_.joints[k]);
+    for (std::size_t k = 0; k < linkage_.joints.size(); ++k)
+      if (linkage_.joints[k].cut || linkage_.joints[k].clearance)
+        add_cut(linkage_.joints[k], built_.joints[k]);
+  }
+
   std::size_t index_of(const std::string& body) const {
     const auto found = std::find_if(linkage_.bodies.begin(), linkage_.bodies.end(),
                                     [&](const LinkageBody& b) { return b.name == body; });

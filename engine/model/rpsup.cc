@@ -180,10 +180,34 @@ FrictionParameters friction_of(const RpsupParameters& p) {
   return friction;
 }
 
+void set_normal_force(const RpsupParameters& p, ClearanceParameters& joint) {
+  const double nu = p.youngs_modulus / (2.0 * p.shear_modulus) - 1.0;
+  joint.K = p.contact_stiffness_scale * calc_hertz_stiffness(p.bearing_radius, p.c_r, p.youngs_modulus, nu);
+  joint.K_a = p.axial_stiffness;
+  joint.cylinders = {
+      p.stiffness_law,
+      p.contact_stiffness_scale * p.youngs_modulus / (2.0 * (1.0 - nu * nu)) * p.bearing_length, p.c_r};
+  joint.chi = calc_damping_factor(p.normal_law, p.restitution);
+  if (p.normal_law == NormalForceLaw::kKelvinVoigt) joint.damping = p.contact_damping;
+  joint.minimum_onset_rate = p.minimum_impact_velocity;
+}
+
+/// The flexible links but for the coupler. @param bodies  of describe_rpsup()
+std::vector<BentLink> list_bent_links(const RpsupParameters& p, const std::vector<BodyFrames>& bodies) {
+  std::vector<BentLink> bent;
+  const auto add = [&](const char* name, const RoundLink& link, std::size_t body, double length) {
+    const std::vector<BodyFrames::Part>& parts = bodies[body].parts;
+    if (is_flexible(link)) bent.push_back({name, parts.front(), parts.back(), length});
+  };
+  add("crank", p.crank, 0, p.crank_length);
+  add("rod", p.rod, 1, p.rod_length);
+  add("cross", p.cross, 4, p.cross_length);
+  return bent;
+}
+
 }  // namespace
 
 ClearanceParameters make_clearance(const RpsupParameters& p) {
-  const double nu = p.youngs_modulus / (2.0 * p.shear_modulus) - 1.0;
   ClearanceParameters joint;
   joint.r_b = p.bearing_radius;
   joint.c_r = p.c_r;
@@ -194,14 +218,7 @@ ClearanceParameters make_clearance(const RpsupParameters& p) {
   joint.n_ce = p.radial_elements;
   joint.n_a = p.axial_levels;
   joint.n_ce_axial = p.axial_elements;
-  joint.K = p.contact_stiffness_scale * calc_hertz_stiffness(p.bearing_radius, p.c_r, p.youngs_modulus, nu);
-  joint.K_a = p.axial_stiffness;
-  joint.cylinders = {
-      p.stiffness_law,
-      p.contact_stiffness_scale * p.youngs_modulus / (2.0 * (1.0 - nu * nu)) * p.bearing_length, p.c_r};
-  joint.chi = calc_damping_factor(p.normal_law, p.restitution);
-  if (p.normal_law == NormalForceLaw::kKelvinVoigt) joint.damping = p.contact_damping;
-  joint.minimum_onset_rate = p.minimum_impact_velocity;
+  set_normal_force(p, joint);
   if (p.friction != FrictionLaw::kNone) joint.friction = friction_of(p);
   if (!p.wear_depth.empty()) joint.worn = std::make_shared<const WornBore>(p.c_r, p.wear_depth);
   return joint;
@@ -214,14 +231,7 @@ Rpsup build_rpsup(const RpsupParameters& p) {
                      .rod = first(1),
                      .coupler = built.bodies[2].parts[0].frame,
                      .slider = first(3),
-                     .bent = {}};
-  const auto add_bent = [&](const char* name, const RoundLink& link, std::size_t body, double length) {
-    const std::vector<BodyFrames::Part>& parts = built.bodies[body].parts;
-    if (is_flexible(link)) layout.bent.push_back({name, parts.front(), parts.back(), length});
-  };
-  add_bent("crank", p.crank, 0, p.crank_length);
-  add_bent("rod", p.rod, 1, p.rod_length);
-  add_bent("cross", p.cross, 4, p.cross_length);
+                     .bent = list_bent_links(p, built.bodies)};
   return {std::move(built.mechanism), std::move(layout)};
 }
 

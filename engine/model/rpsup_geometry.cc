@@ -26,6 +26,15 @@ Eigen::Matrix3d rotation_about_z(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
+/// Rotation to a frame with its x along a vector and its z a unit vector at right angles to that.
+Eigen::Matrix3d rotation_to_axes(const Eigen::Vector3d& along_x, const Eigen::Vector3d& z) {
+  Eigen::Matrix3d R;
+  R.col(0) = along_x.normalized();
+  R.col(2) = z;
+  R.col(1) = z.cross(R.col(0));
+  return R;
+}
+
 /// The axis of joint R is at right angles to the guide and to the coupler, and the S joint is the cross
 /// link's length ahead along it:
 ///
@@ -37,11 +46,7 @@ AssemblyGuess calc_guess_about_guide(const RpsupParameters& p) {
   const Eigen::Vector3d z_22 = along * e + std::sqrt(1.0 - along * along) * Eigen::Vector3d::UnitX().cross(e);
   const double slider = S.x() + std::sqrt(std::max(0.0, calc_coupler_projection_squared(p, S)));
   const Eigen::Vector3d J(slider, p.cross_length * z_22.y(), p.cross_length * z_22.z());
-
-  Eigen::Matrix3d R_g13;
-  R_g13.col(0) = (J - S).normalized();
-  R_g13.col(2) = z_22;
-  R_g13.col(1) = z_22.cross(R_g13.col(0));
+  const Eigen::Matrix3d R_g13 = rotation_to_axes(J - S, z_22);
   const Eigen::Matrix3d R_crank = rotation_about_z(calc_crank_motion(p, 0.0).q);
   const Eigen::Vector3d angles = calc_zyx_angles(R_crank.transpose() * guide_frame(p).R * R_g13);
   return {round_to_millionth(angles[0]), round_to_millionth(angles[1]), round_to_millionth(angles[2]),

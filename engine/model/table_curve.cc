@@ -49,26 +49,38 @@ TableCurve::TableCurve(const std::vector<double>& x, const std::vector<double>& 
   const std::vector<double> slopes = cubic ? calc_monotone_slopes(x, values) : std::vector<double>();
   pieces_.push_back({.x = x.front(), .v = values.front()});
   for (std::size_t k = 0; k < x.size(); ++k) {
-    Piece piece{.x = x[k], .v = values[k]};
-    if (k + 1 < x.size()) {
-      const double h = x[k + 1] - x[k], d = (values[k + 1] - values[k]) / h;
-      piece.a = cubic ? slopes[k] : d;
-      if (cubic) {
-        piece.b = (3.0 * d - 2.0 * slopes[k] - slopes[k + 1]) / h;
-        piece.c = (slopes[k] + slopes[k + 1] - 2.0 * d) / (h * h);
-      }
-    }
-    const Point before = calc(x[k]);
-    piece.integral = before.integral;
     const bool inside = k > 0 && k + 1 < x.size();
-    const double size = std::abs(piece.a) + std::abs(before.slope);
-    piece.has_kink = !(cubic && inside) && std::abs(piece.a - before.slope) > 1e-12 * size;
-    pieces_.push_back(piece);
+    append(make_piece(x, values, slopes, k), cubic && inside);
   }
   const auto [least, largest] = std::ranges::minmax(values);
   range_ = largest - least;
   const double shift = -calc(0.0).integral;
   for (Piece& piece : pieces_) piece.integral += shift;
+}
+
+/// The piece that begins at the k-th point, but for its integral. @param slopes  at the points; empty: it is
+/// straight
+TableCurve::Piece TableCurve::make_piece(const std::vector<double>& x, const std::vector<double>& values,
+                                         const std::vector<double>& slopes, std::size_t k) {
+  Piece piece{.x = x[k], .v = values[k]};
+  if (k + 1 == x.size()) return piece;
+  const double h = x[k + 1] - x[k], d = (values[k + 1] - values[k]) / h;
+  piece.a = d;
+  if (slopes.empty()) return piece;
+  piece.a = slopes[k];
+  piece.b = (3.0 * d - 2.0 * slopes[k] - slopes[k + 1]) / h;
+  piece.c = (slopes[k] + slopes[k + 1] - 2.0 * d) / (h * h);
+  return piece;
+}
+
+/// Appends a piece behind those before. @param is_smooth  whether the slope is continuous there but for
+/// rounding
+void TableCurve::append(Piece piece, bool is_smooth) {
+  const Point before = calc(piece.x);
+  piece.integral = before.integral;
+  const double size = std::abs(piece.a) + std::abs(before.slope);
+  piece.has_kink = !is_smooth && std::abs(piece.a - before.slope) > 1e-12 * size;
+  pieces_.push_back(piece);
 }
 
 const TableCurve::Piece& TableCurve::piece_of(double x) const {

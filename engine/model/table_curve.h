@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace engine {
@@ -43,6 +44,9 @@ class TableCurve {
     double integral = 0.0, v = 0.0, a = 0.0, b = 0.0, c = 0.0;
     bool has_kink = false;  ///< whether the slope jumps where it begins
   };
+  [[nodiscard]] static Piece make_piece(const std::vector<double>& x, const std::vector<double>& values,
+                                        const std::vector<double>& slopes, std::size_t k);
+  void append(Piece piece, bool is_smooth);
   [[nodiscard]] const Piece& piece_of(double x) const;
 
   std::vector<Piece> pieces_;  ///< the first from ever on, the others from a point each
