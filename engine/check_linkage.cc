@@ -150,7 +150,7 @@ void check_moved_masses(const Linkage& linkage, const BuiltLinkage& built,
               ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
 }
 
-/// Nor may several together.
+/// Nor may several free coordinates together move nothing that has mass. @param M  of all of them
 void check_mass_matrix(const Eigen::MatrixXd& M) {
   // Least eigenvalue of the matrix with its diagonal scaled to 1: rounding.
   constexpr double kNoneOfThem = 1e-13;

@@ -47,6 +47,10 @@ class AxialFaces {
   ContactChange advance(const JournalMotion& start, const JournalMotion& end, double dt);
 
  private:
+  void add_points();
+  /// Takes note of a face's points that touch or part. @returns whether any did
+  bool advance_points(int face, const JournalMotion& start, const JournalMotion& end, double dt);
+
   ClearanceParameters joint_;
   int face_points_;
   double point_stiffness_, point_damping_;

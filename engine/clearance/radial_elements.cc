@@ -113,12 +113,17 @@ bool RadialElements::follow(const JournalMotion& journal, double dt, double* bri
   return moved;
 }
 
-/// Moves a window by `shift` elements, or as far as no element in contact leaves it.
-void RadialElements::shift_window(int ring, int shift, double* bristles) {
+/// So much of a window's shift that no element in contact leaves it.
+int RadialElements::limit_shift(int ring, int shift) {
   int free = 0;
   while (free < window_ && !latch(ring, element_of(ring, shift > 0 ? free : window_ - 1 - free)).in_contact())
     ++free;
-  if (free < window_) shift = std::clamp(shift, -free, free);
+  return free < window_ ? std::clamp(shift, -free, free) : shift;
+}
+
+/// Moves a window by `shift` elements, or as far as no element in contact leaves it.
+void RadialElements::shift_window(int ring, int shift, double* bristles) {
+  shift = limit_shift(ring, shift);
   int& first = first_[static_cast<std::size_t>(ring)];
   first = wrap(first + shift);
   double* begin = bristles + 2 * ring * window_;

@@ -72,6 +72,7 @@ class RadialElements {
   [[nodiscard]] int element_of(int ring, int slot) const {
     return wrap(first_[static_cast<std::size_t>(ring)] + slot);
   }
+  [[nodiscard]] int limit_shift(int ring, int shift);
   void shift_window(int ring, int shift, double* bristles);
 
   ClearanceParameters joint_;

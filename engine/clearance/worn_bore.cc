@@ -22,31 +22,53 @@ double find_least(double before, double middle, double after) {
   return bend > 0.0 ? middle - rise * rise / (8.0 * bend) : middle;
 }
 
-/// R - c_r at each of the angles.
-std::vector<double> calc_added_clearances(double c_r, const PeriodicSpline& depth) {
-  constexpr double kSpacing = 2.0 * std::numbers::pi / kAngles;
-  std::vector<double> gap, inverse_cosine;
-  for (int k = 0; k < kAngles; ++k) gap.push_back(c_r + depth.at(kSpacing * k).value);
-  for (int away = 0; away <= kFarthest + 1; ++away) inverse_cosine.push_back(1.0 / std::cos(kSpacing * away));
-  const double narrowest = *std::min_element(gap.begin(), gap.end());
-  std::vector<double> added;
-  for (int theta = 0; theta < kAngles; ++theta) {
-    const auto calc_limit = [&](int away) {  // how far it gets until it touches there
-      return gap[static_cast<std::size_t>((theta + away + kAngles) % kAngles)] *
-             inverse_cosine[static_cast<std::size_t>(std::abs(away))];
-    };
+/// The gap around a centred journal, at each of the angles.
+class WornGap {
+ public:
+  WornGap(double c_r, const PeriodicSpline& depth) {
+    constexpr double kSpacing = 2.0 * std::numbers::pi / kAngles;
+    for (int k = 0; k < kAngles; ++k) gap_.push_back(c_r + depth.at(kSpacing * k).value);
+    for (int away = 0; away <= kFarthest + 1; ++away)
+      inverse_cosine_.push_back(1.0 / std::cos(kSpacing * away));
+    narrowest_ = *std::min_element(gap_.begin(), gap_.end());
+  }
+
+  /// How far the journal gets in the direction theta until it touches so many angles away from it, [m].
+  [[nodiscard]] double calc_limit(int theta, int away) const {
+    return gap_[static_cast<std::size_t>((theta + away + kAngles) % kAngles)] *
+           inverse_cosine_[static_cast<std::size_t>(std::abs(away))];
+  }
+
+  /// Where it touches first, in angles away from theta.
+  [[nodiscard]] int find_nearest(int theta) const {
     int nearest = 0;
-    double least = calc_limit(0);
+    double least = calc_limit(theta, 0);
     for (int away = 1;
-         away <= kFarthest && inverse_cosine[static_cast<std::size_t>(away)] * narrowest < least; ++away) {
+         away <= kFarthest && inverse_cosine_[static_cast<std::size_t>(away)] * narrowest_ < least; ++away) {
       for (const int there : {-away, away}) {
-        if (const double limit = calc_limit(there); limit < least) {
+        if (const double limit = calc_limit(theta, there); limit < least) {
           least = limit;
           nearest = there;
         }
       }
     }
-    added.push_back(find_least(calc_limit(nearest - 1), calc_limit(nearest), calc_limit(nearest + 1)) - c_r);
+    return nearest;
+  }
+
+ private:
+  std::vector<double> gap_, inverse_cosine_;
+  double narrowest_;
+};
+
+/// R - c_r at each of the angles.
+std::vector<double> calc_added_clearances(double c_r, const PeriodicSpline& depth) {
+  const WornGap gap(c_r, depth);
+  std::vector<double> added;
+  for (int theta = 0; theta < kAngles; ++theta) {
+    const int nearest = gap.find_nearest(theta);
+    const double limit = find_least(gap.calc_limit(theta, nearest - 1), gap.calc_limit(theta, nearest),
+                                    gap.calc_limit(theta, nearest + 1));
+    added.push_back(limit - c_r);
   }
   return added;
 }
