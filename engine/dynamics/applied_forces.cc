@@ -6,6 +6,20 @@
 
 namespace engine {
 
+namespace {
+
+/// @param drive_work  of the force element
+void add_work(PowerKind kind, double work, double& drive_work, EnergyAccount& energy) {
+  if (kind == PowerKind::kLoss)
+    energy.structural_loss -= work;
+  else if (kind == PowerKind::kFriction)
+    energy.friction_loss -= work;
+  else
+    drive_work += work;
+}
+
+}  // namespace
+
 AppliedForces::AppliedForces(const Mechanism& mechanism, const TreeModel& model)
     : mechanism_(mechanism),
       forces_(model.applied_forces),
@@ -51,6 +65,12 @@ void AppliedForces::calc(double t, const Eigen::VectorXd& y, const std::vector<D
 }
 
 void AppliedForces::read_out(const Eigen::VectorXd& y, const StateLayout& layout, Evaluation& at) const {
+  read_out_elements(y, layout, at);
+  read_out_body_loads(y, layout, at);
+}
+
+void AppliedForces::read_out_elements(const Eigen::VectorXd& y, const StateLayout& layout,
+                                      Evaluation& at) const {
   for (std::size_t k = 0; k < groups_.size(); ++k) {
     double& work = at.energy.drive_work[layout.drives + static_cast<Eigen::Index>(k)];
     work = 0.0;
@@ -59,14 +79,13 @@ void AppliedForces::read_out(const Eigen::VectorXd& y, const StateLayout& layout
       at.applied_force[index] = values_[i].force;
       if (forces_[i].work < 0) continue;
       at.applied_work[index] = y[layout.work(layout.applied_in_works(forces_[i].work))];
-      if (forces_[i].power == PowerKind::kLoss)
-        at.energy.structural_loss -= at.applied_work[index];
-      else if (forces_[i].power == PowerKind::kFriction)
-        at.energy.friction_loss -= at.applied_work[index];
-      else
-        work += at.applied_work[index];
+      add_work(forces_[i].power, at.applied_work[index], work, at.energy);
     }
   }
+}
+
+void AppliedForces::read_out_body_loads(const Eigen::VectorXd& y, const StateLayout& layout,
+                                        Evaluation& at) const {
   const auto behind = static_cast<Eigen::Index>(forces_.size());
   const int first_load = layout.applied - static_cast<int>(body_loads_.size());
   for (std::size_t k = 0; k < body_loads_.size(); ++k) {

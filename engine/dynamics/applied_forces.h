@@ -40,6 +40,8 @@ class AppliedForces {
     Source coordinate, winding, memory;
     std::size_t first = 0, end = 0;
   };
+  void read_out_elements(const Eigen::VectorXd& y, const StateLayout& layout, Evaluation& at) const;
+  void read_out_body_loads(const Eigen::VectorXd& y, const StateLayout& layout, Evaluation& at) const;
   [[nodiscard]] static Source find_source(const TreeModel& model, FrameIndex coordinate);
 
   const Mechanism& mechanism_;

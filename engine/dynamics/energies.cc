@@ -9,6 +9,16 @@
 
 namespace engine {
 
+namespace {
+
+double calc_twice_kinetic_energy(const Coordinate& body, const FrameMotion& f) {
+  const Eigen::Vector3d w_F = f.R.transpose() * f.w;
+  const Eigen::Vector3d v_F = f.R.transpose() * f.v;
+  return body.mass * (v_F.squaredNorm() + 2.0 * v_F.dot(w_F.cross(body.com))) + w_F.dot(body.inertia * w_F);
+}
+
+}  // namespace
+
 double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMotion>& frames,
                            const Eigen::VectorXd& qd) {
   double twice = 0.0;
@@ -19,11 +29,7 @@ double calc_kinetic_energy(const Mechanism& mechanism, const std::vector<FrameMo
       twice += body.armature * rate * rate;
     }
     if (body.mass == 0.0 || body.role == CoordinateRole::kMemory) continue;
-    const FrameMotion& f = frames[i];
-    const Eigen::Vector3d w_F = f.R.transpose() * f.w;
-    const Eigen::Vector3d v_F = f.R.transpose() * f.v;
-    twice +=
-        body.mass * (v_F.squaredNorm() + 2.0 * v_F.dot(w_F.cross(body.com))) + w_F.dot(body.inertia * w_F);
+    twice += calc_twice_kinetic_energy(body, frames[i]);
   }
   return 0.5 * twice;
 }

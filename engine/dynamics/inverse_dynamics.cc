@@ -22,12 +22,17 @@ void InverseDynamics::add_load(FrameIndex frame, const Wrench& about_origin) {
   load.moment += about_origin.moment;
 }
 
-const Eigen::VectorXd& InverseDynamics::calc(const std::vector<FrameMotion>& frames) {
+/// transmitted_ <- what each body's own motion takes, less its loads, which are cleared
+void InverseDynamics::calc_net_forces(const std::vector<FrameMotion>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const SpatialForce<double> force = calc_newton_euler_force(model_.joints[i], to_frame(frames[i]));
     transmitted_[i] = {to_eigen(force.force) - loads_[i].force, to_eigen(force.moment) - loads_[i].moment};
   }
   std::fill(loads_.begin(), loads_.end(), Wrench{});
+}
+
+const Eigen::VectorXd& InverseDynamics::calc(const std::vector<FrameMotion>& frames) {
+  calc_net_forces(frames);
   for (std::size_t i = frames.size(); i-- > 0;) {
     const TreeJoint& joint = model_.joints[i];
     const Wrench& force = transmitted_[i];

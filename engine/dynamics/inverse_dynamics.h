@@ -36,6 +36,8 @@ class InverseDynamics {
   }
 
  private:
+  void calc_net_forces(const std::vector<FrameMotion>& frames);
+
   TreeModel model_;
   std::vector<Wrench> loads_;
   std::vector<Wrench> transmitted_;  ///< by the joint of each frame

@@ -27,14 +27,20 @@ bool is_unloaded_spring(const Coordinate& c) { return c.stiffness != 0.0 && !c.s
 bool is_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !c.start; }
 bool is_rate_found_by_loops(const Coordinate& c) { return !is_unloaded_spring(c) && !c.start_rate; }
 
-/// Whether a journal is in its bore and between its shoulders; it may rest there, pressed in a little.
-bool is_in_bore(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
-  constexpr double kPressed = 0.1;  // of the radial clearance
+/// A journal as seen from its bearing, but for velocities.
+JournalMotion calc_journal_pose(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
   const FrameMotion b = motion_of(joint.bearing_frame, frames), j = motion_of(joint.journal_frame, frames);
   const Eigen::Matrix3d R_b = b.R * joint.bearing.R;
   JournalMotion journal;
   journal.R_bj = R_b.transpose() * j.R * joint.journal.R;
   journal.p_bj = R_b.transpose() * (j.p + j.R * joint.journal.p - b.p - b.R * joint.bearing.p);
+  return journal;
+}
+
+/// Whether a journal is in its bore and between its shoulders; it may rest there, pressed in a little.
+bool is_in_bore(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
+  constexpr double kPressed = 0.1;  // of the radial clearance
+  const JournalMotion journal = calc_journal_pose(joint, frames);
   const ClearanceJoint clearance(*joint.clearance);
   const AxialFaces& faces = clearance.faces();
   std::vector<Penetration> rings;
@@ -56,8 +62,21 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
       constraints_(ideal_),
       inverse_dynamics_(ideal_),
       J_(unknown_.size()) {
+  list_rigid_rows(mechanism.cut_joints);
+  std::ranges::copy_if(mechanism.cut_joints, std::back_inserter(clearance_joints_),
+                       [](const CutJoint& joint) { return joint.clearance.has_value(); });
+  all_rows_.resize(static_cast<std::size_t>(constraints_.count()));
+  std::iota(all_rows_.begin(), all_rows_.end(), Eigen::Index{0});
+  J_.resize(unknown_.size());
+  step_.setZero(static_cast<Eigen::Index>(unknown_.size()));
+  lambda_.setZero(constraints_.count());
+  find_active_rows();
+}
+
+/// @param joints  with the clearances that the ideal mechanism has not
+void LoopClosure::list_rigid_rows(const std::vector<CutJoint>& joints) {
   Eigen::Index row = 0;
-  for (const CutJoint& joint : mechanism.cut_joints) {
+  for (const CutJoint& joint : joints) {
     const CutRows rows = rows_of(joint.kind);
     for (int k = 0; k < rows.count(); ++k, ++row) {
       if (joint.clearance) continue;
@@ -65,18 +84,10 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
       blocks_.push_back(row - k + (k < rows.positions ? 0 : rows.positions));
     }
   }
-  std::ranges::copy_if(mechanism.cut_joints, std::back_inserter(clearance_joints_),
-                       [](const CutJoint& joint) { return joint.clearance.has_value(); });
   for (; row < constraints_.count(); ++row) {
     rigid_rows_.push_back(row);
     blocks_.push_back(row);
   }
-  all_rows_.resize(static_cast<std::size_t>(constraints_.count()));
-  std::iota(all_rows_.begin(), all_rows_.end(), Eigen::Index{0});
-  J_.resize(unknown_.size());
-  step_.setZero(static_cast<Eigen::Index>(unknown_.size()));
-  lambda_.setZero(constraints_.count());
-  find_active_rows();
 }
 
 /// Rows that no coordinate moves, those out of the plane of a planar linkage say, have no entries in any

@@ -102,6 +102,7 @@ class LoopClosure {
   }
 
  private:
+  void list_rigid_rows(const std::vector<CutJoint>& joints);
   void find_active_rows();
   void set_guess(double t, Evaluation& at) const;
   [[nodiscard]] bool close_from_guess(double t, Evaluation& at);
@@ -110,6 +111,7 @@ class LoopClosure {
   [[nodiscard]] bool close(Evaluation& at, AxisResiduals axes, double tolerance,
                            const std::vector<Eigen::Index>& rows);
   [[nodiscard]] bool is_left_to_drives() const;
+  [[nodiscard]] bool is_determined_elsewhere(const Evaluation& assembled);
   [[nodiscard]] Eigen::Index calc_rank() const;
   [[nodiscard]] Eigen::MatrixXd calc_rigid_rows() const;
   [[nodiscard]] Eigen::VectorXd calc_row_weights() const;
@@ -127,6 +129,10 @@ class LoopClosure {
   void calc_rates(Evaluation& at);
   [[nodiscard]] bool close_position(Evaluation& at);
   void solve_rates(Evaluation& at);
+  void solve_multipliers(const Eigen::VectorXd& forces);
+  void interpolate_coordinates(double s, const Evaluation& before, const Evaluation& after,
+                               Evaluation& at) const;
+  void extend_coordinates(double dt, const Evaluation& before, Evaluation& at) const;
   void take_active(const Eigen::Ref<const Eigen::VectorXd>& rows);
   void apply_newton_step(Eigen::VectorXd& coordinates);
   [[nodiscard]] bool factor();

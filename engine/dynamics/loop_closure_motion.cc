@@ -15,17 +15,35 @@ namespace engine {
 
 using namespace loop_closure;
 
+namespace {
+
+/// The quintic of a coordinate through two instants.
+Quintic make_quintic(FrameIndex i, const Evaluation& before, const Evaluation& after) {
+  return Quintic(after.t - before.t, before.q[i], before.qd[i], before.qdd[i],
+                 after.q[i], after.qd[i], after.qdd[i]);
+}
+
+/// @param s  part of the way from one instant to the other
+void interpolate_forces(double s, const Evaluation& before, const Evaluation& after, Evaluation& at) {
+  const auto mix = [s](const auto& from, const auto& to, auto& mixed) {
+    mixed = (1.0 - s) * from + s * to;
+  };
+  mix(before.drive_force, after.drive_force, at.drive_force);
+  for (std::size_t k = 0; k < at.joints.size(); ++k) {
+    mix(before.joints[k].reaction_W, after.joints[k].reaction_W, at.joints[k].reaction_W);
+    mix(before.joints[k].moment_W, after.joints[k].moment_W, at.joints[k].moment_W);
+  }
+}
+
+}  // namespace
+
 void LoopClosure::extrapolate(double t, const Evaluation& before, const Evaluation& nearby,
                               Evaluation& at) const {
   constexpr double kFar = 5.0;  // intervals: beyond, the rounding of the two instants counts
   const double interval = nearby.t - before.t;
   const double s = (t - before.t) / interval;
   if (interval > 0.0 && std::abs(s) < kFar) {
-    for (const FrameIndex i : unknown_) {
-      const Quintic q(interval, before.q[i], before.qd[i], before.qdd[i],
-                      nearby.q[i], nearby.qd[i], nearby.qdd[i]);
-      at.q[i] = q.value(s);
-    }
+    for (const FrameIndex i : unknown_) at.q[i] = make_quintic(i, before, nearby).value(s);
     at.t = t;
   } else {
     at.q = nearby.q;
@@ -117,16 +135,20 @@ void LoopClosure::solve_rates(Evaluation& at) {
   apply_newton_step(at.qd);
 }
 
-/// With all accelerations known the recursion gives every generalised force. On the unknown coordinates the
-/// reactions alone act: Phi_q^T lambda equals their forces.
-void LoopClosure::solve_forces(Evaluation& at) {
-  calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
-  const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);
+/// On the unknown coordinates the reactions alone act: Phi_q^T lambda equals their generalised forces.
+void LoopClosure::solve_multipliers(const Eigen::VectorXd& forces) {
   for (std::size_t k = 0; k < unknown_.size(); ++k)
     step_[static_cast<Eigen::Index>(k)] = forces[unknown_[k]];
   J_.solve_transposed_in_place(step_.data());
   for (std::size_t r = 0; r < active_rows_.size(); ++r)
     lambda_[active_rows_[r]] = step_[static_cast<Eigen::Index>(r)];
+}
+
+/// With all accelerations known the recursion gives every generalised force.
+void LoopClosure::solve_forces(Evaluation& at) {
+  calc_frame_rates(ideal_, at.qd, at.qdd, at.frames);
+  const Eigen::VectorXd& forces = inverse_dynamics_.calc(at.frames);
+  solve_multipliers(forces);
   for (std::size_t k = 0; k < at.joints.size(); ++k) {
     const auto [force, moment] = constraints_.calc_reaction(k, lambda_, at.frames);
     at.joints[k].reaction_W = to_eigen(force);
@@ -138,32 +160,37 @@ void LoopClosure::solve_forces(Evaluation& at) {
   }
 }
 
-void LoopClosure::interpolate(double t, const Evaluation& before, const Evaluation& after,
-                              Evaluation& at) const {
-  const double interval = after.t - before.t, since = t - before.t, s = since / interval;
+/// @param s  part of the way from one instant to the other
+void LoopClosure::interpolate_coordinates(double s, const Evaluation& before, const Evaluation& after,
+                                          Evaluation& at) const {
   for (const FrameIndex i : unknown_) {
-    if (!(interval > 0.0)) {
-      at.q[i] = before.q[i] + since * (before.qd[i] + 0.5 * since * before.qdd[i]);
-      at.qd[i] = before.qd[i] + since * before.qdd[i];
-      at.qdd[i] = before.qdd[i];
-      continue;
-    }
-    const Quintic q(interval, before.q[i], before.qd[i], before.qdd[i], after.q[i], after.qd[i],
-                    after.qdd[i]);
+    const Quintic q = make_quintic(i, before, after);
     at.q[i] = q.value(s);
     at.qd[i] = q.rate(s);
     at.qdd[i] = q.acceleration(s);
   }
+}
+
+/// By the Taylor series.
+void LoopClosure::extend_coordinates(double dt, const Evaluation& before, Evaluation& at) const {
+  for (const FrameIndex i : unknown_) {
+    at.q[i] = before.q[i] + dt * (before.qd[i] + 0.5 * dt * before.qdd[i]);
+    at.qd[i] = before.qd[i] + dt * before.qdd[i];
+    at.qdd[i] = before.qdd[i];
+  }
+}
+
+void LoopClosure::interpolate(double t, const Evaluation& before, const Evaluation& after,
+                              Evaluation& at) const {
+  const double interval = after.t - before.t, since = t - before.t;
+  const double s = interval > 0.0 ? since / interval : 0.0;
+  if (interval > 0.0)
+    interpolate_coordinates(s, before, after, at);
+  else
+    extend_coordinates(since, before, at);
   set_drives(t, at);
   calc_frame_motions(ideal_, at.q, at.qd, at.qdd, at.frames);
-  const auto mix = [w = interval > 0.0 ? s : 0.0](const auto& from, const auto& to, auto& mixed) {
-    mixed = (1.0 - w) * from + w * to;
-  };
-  mix(before.drive_force, after.drive_force, at.drive_force);
-  for (std::size_t k = 0; k < at.joints.size(); ++k) {
-    mix(before.joints[k].reaction_W, after.joints[k].reaction_W, at.joints[k].reaction_W);
-    mix(before.joints[k].moment_W, after.joints[k].moment_W, at.joints[k].moment_W);
-  }
+  interpolate_forces(s, before, after, at);
 }
 
 }  // namespace engine

@@ -49,6 +49,14 @@ Eigen::VectorXd perturb(const Mechanism& mechanism, Eigen::VectorXd q, double si
   return q;
 }
 
+Evaluation make_at_rest(Eigen::VectorXd q) {
+  Evaluation at;
+  at.frames.resize(static_cast<std::size_t>(q.size()));
+  at.qd = at.qdd = Eigen::VectorXd::Zero(q.size());
+  at.q = std::move(q);
+  return at;
+}
+
 }  // namespace
 
 /// Whether nothing but drives and constraints moves the mechanism.
@@ -62,6 +70,14 @@ bool LoopClosure::is_left_to_drives() const {
 /// Numerical rank of Phi_q of the unknown coordinates.
 Eigen::Index LoopClosure::calc_rank() const { return rank_of(calc_columns(unknown_)); }
 
+/// Whether the drives, when they have moved a little, determine the motion.
+bool LoopClosure::is_determined_elsewhere(const Evaluation& assembled) {
+  const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
+  const Eigen::VectorXd moved = perturb(ideal_, assembled.q + displacement, kPerturbation, kAlternating);
+  return !displacement.isZero(0.0) && close_from_perturbed(moved) &&
+         calc_rank() == static_cast<Eigen::Index>(unknown_.size());
+}
+
 LoopClosure::Determinacy LoopClosure::find_determinacy(const Evaluation& assembled) {
   if (!is_left_to_drives() || active_rows_.size() < unknown_.size()) return Determinacy::kFree;
   Evaluation at = assembled;
@@ -72,11 +88,7 @@ LoopClosure::Determinacy LoopClosure::find_determinacy(const Evaluation& assembl
   // A linkage at rest has no rates that tell the branches apart next to a change point.
   const bool at_rest = assembled.qd.isZero(0.0);
   if (is_solvable && !(at_rest && calc_binding_rank() < unknown)) return Determinacy::kDetermined;
-  const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
-  const Eigen::VectorXd moved = perturb(ideal_, assembled.q + displacement, kPerturbation, kAlternating);
-  const bool determined_elsewhere =
-      !displacement.isZero(0.0) && close_from_perturbed(moved) && calc_rank() == unknown;
-  if (determined_elsewhere) return Determinacy::kSingularStart;
+  if (is_determined_elsewhere(assembled)) return Determinacy::kSingularStart;
   return is_solvable ? Determinacy::kDetermined : Determinacy::kFree;
 }
 
@@ -174,10 +186,7 @@ bool LoopClosure::is_free(const Eigen::VectorXd& displacement) const {
 /// @returns the position in which they close; empty: they do not
 std::optional<Eigen::VectorXd> LoopClosure::close_from_perturbed(Eigen::VectorXd q) {
   constexpr double kMeets = 1e-9;   // [m] and [1]
-  Evaluation at;
-  at.qd = at.qdd = Eigen::VectorXd::Zero(q.size());
-  at.q = std::move(q);
-  at.frames.resize(ideal_.coordinates.size());
+  Evaluation at = make_at_rest(std::move(q));
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     calc_positions(at);
     const Eigen::VectorXd gaps = constraints_.Phi(rigid_rows_);

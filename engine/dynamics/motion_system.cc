@@ -19,13 +19,17 @@ MotionSystem::MotionSystem(const Mechanism& mechanism, std::string_view instruct
       reaction_friction_(mechanism_),
       friction_at_(make_evaluation()) {
   for (DrivesAt& each : last_drives_) each.motion.resize(mechanism.drives.size());
-  for (std::size_t k = 0; k < mechanism.cut_joints.size(); ++k) {
-    if (!mechanism.cut_joints[k].clearance) continue;
-    clearance_joints_.emplace_back(*mechanism.cut_joints[k].clearance);
+  add_clearance_joints();
+  allocate();
+}
+
+void MotionSystem::add_clearance_joints() {
+  for (std::size_t k = 0; k < mechanism_.cut_joints.size(); ++k) {
+    if (!mechanism_.cut_joints[k].clearance) continue;
+    clearance_joints_.emplace_back(*mechanism_.cut_joints[k].clearance);
     clearance_joint_of_.push_back(k);
     layout_.bristles += static_cast<int>(clearance_joints_.back().bristle_count());
   }
-  allocate();
 }
 
 void MotionSystem::reload_mechanism() {

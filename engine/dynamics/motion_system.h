@@ -113,6 +113,7 @@ class MotionSystem {
   [[nodiscard]] EvaluationStatus solve(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   [[nodiscard]] EvaluationStatus solve_friction(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt);
   void calc_applied_forces(double t, const Eigen::VectorXd& y);
+  void add_clearance_joints();
   void allocate();
   void set_error_weights();
 

@@ -30,6 +30,13 @@ JointTraits::Inertia kind_of_inertia(const Coordinate& c) {
   return I(1, 1) == I(2, 2) ? JointTraits::Inertia::kAxisymmetric : JointTraits::Inertia::kDiagonal;
 }
 
+void set_placement(const Placement& placement, TreeJoint& joint) {
+  joint.placement = make_placement(placement);
+  joint.rotated = joint.placement.rotated;
+  joint.shifted = joint.placement.shifted;
+  joint.shifted_along_x = joint.placement.along_x;
+}
+
 void set_body(const Coordinate& c, TreeJoint& joint) {
   joint.inertia = kind_of_inertia(c);
   joint.mass = c.mass;
@@ -64,27 +71,35 @@ class JointFinder {
   void add_joint(int i) {
     const Coordinate& c = coordinate(i);
     TreeJoint joint;
+    set_motion(i, joint);
+    set_placement(c.placement, joint);
+    joint.parent = joint_of(c.parent);
+    set_springs(i, joint);
+    joint.armature = c.armature;
+    joint.has_armature = c.armature != 0.0;
+    set_body(coordinate(i + joint.count() - 1), joint);
+    for (int k = 0; k < joint.count(); ++k)
+      joint_of_[static_cast<std::size_t>(i + k)] = static_cast<int>(joints_.size());
+    joints_.push_back(joint);
+  }
+
+  void set_motion(int i, TreeJoint& joint) const {
+    const Coordinate& c = coordinate(i);
     joint.kind = is_spherical(i)                 ? JointTraits::Kind::kSpherical
                  : c.motion == Motion::kRotation ? JointTraits::Kind::kRotation
                                                  : JointTraits::Kind::kTranslation;
     joint.axis = static_cast<int>(c.axis);
-    joint.placement = make_placement(c.placement);
-    joint.rotated = joint.placement.rotated;
-    joint.shifted = joint.placement.shifted;
-    joint.shifted_along_x = joint.placement.along_x;
     joint.drive = eliminating_drive(i);
     joint.driven = joint.drive >= 0;
-    joint.parent = joint_of(c.parent);
+  }
+
+  void set_springs(int i, TreeJoint& joint) const {
     for (int k = 0; k < joint.count(); ++k) {
-      joint.stiffness[static_cast<std::size_t>(k)] = coordinate(i + k).stiffness;
-      joint.damping[static_cast<std::size_t>(k)] = coordinate(i + k).damping;
-      joint.sprung = joint.sprung || coordinate(i + k).stiffness != 0.0 || coordinate(i + k).damping != 0.0;
-      joint_of_[static_cast<std::size_t>(i + k)] = static_cast<int>(joints_.size());
+      const Coordinate& c = coordinate(i + k);
+      joint.stiffness[static_cast<std::size_t>(k)] = c.stiffness;
+      joint.damping[static_cast<std::size_t>(k)] = c.damping;
+      joint.sprung = joint.sprung || c.stiffness != 0.0 || c.damping != 0.0;
     }
-    joint.armature = c.armature;
-    joint.has_armature = c.armature != 0.0;
-    set_body(coordinate(i + joint.count() - 1), joint);
-    joints_.push_back(joint);
   }
 
   /// The drive that gives a coordinate's motion; -1: it is free, or a multiplier enforces the drive.
