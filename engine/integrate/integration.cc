@@ -73,26 +73,31 @@ RunOutcome Integration::run(const Evaluation& assembled) {
   if (!start(assembled)) return outcome_;
   end_ = start_;
   take_samples();
-  while (!failed_ && start_.t < options_.duration) {
-    if (outcome_.steps >= options_.step_limit) {
-      fail(RunStatus::kStepLimit,
-           "the run needs more than " + std::to_string(options_.step_limit) + " steps");
-    } else if (pace_check_.is_hopeless(outcome_.steps, start_.t)) {
-      fail(RunStatus::kStepLimit, "at the pace of its last million steps the run needs more than " +
-                                      std::to_string(options_.step_limit) + " steps");
-    } else if (outcome_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t)) {
-      fail(RunStatus::kStopped, "stopped on request");
-    } else if (fixed ? try_fixed_step() : try_controlled_step()) {
-      accept();
-      if ((piece_.is_over(start_.t) || start_.t >= piece_.end() - sliver_) && start_.t < options_.duration)
-        jump();
-    }
+  while (can_continue()) {
+    if (!(fixed ? try_fixed_step() : try_controlled_step())) continue;
+    accept();
+    if ((piece_.is_over(start_.t) || start_.t >= piece_.end() - sliver_) && start_.t < options_.duration)
+      jump();
   }
   outcome_.t = start_.t;
   return outcome_;
 }
 
-bool Integration::start(const Evaluation& assembled) {
+/// Whether the run takes another step. Fails if it has taken too many, or is to stop.
+bool Integration::can_continue() {
+  if (failed_ || !(start_.t < options_.duration)) return false;
+  if (outcome_.steps >= options_.step_limit)
+    fail(RunStatus::kStepLimit,
+         "the run needs more than " + std::to_string(options_.step_limit) + " steps");
+  else if (pace_check_.is_hopeless(outcome_.steps, start_.t))
+    fail(RunStatus::kStepLimit, "at the pace of its last million steps the run needs more than " +
+                                    std::to_string(options_.step_limit) + " steps");
+  else if (outcome_.steps % kStepsBetweenQueries == 0 && observer_.stop_requested(start_.t))
+    fail(RunStatus::kStopped, "stopped on request");
+  return !failed_;
+}
+
+void Integration::set_start(const Evaluation& assembled) {
   start_.at = system_.make_evaluation();
   given_chart_observer_.start(assembled);
   start_.at.q = assembled.q;
@@ -102,6 +107,11 @@ bool Integration::start(const Evaluation& assembled) {
   (void)begin_charts();
   end_ = sample_ = start_;
   start_.f = end_.f = sample_.f = Eigen::VectorXd::Zero(start_.y.size());
+  dt_ = kFirstStep;
+}
+
+bool Integration::start(const Evaluation& assembled) {
+  set_start(assembled);
   ++outcome_.evaluations;
   const EvaluationStatus status = system_.calc_derivative(0.0, start_.y, start_.f, start_.at);
   if (status != EvaluationStatus::kOk) {
@@ -114,7 +124,6 @@ bool Integration::start(const Evaluation& assembled) {
   system_.calc_energies(start_.at);
   system_.add_penetrations(start_.at, rings_start_);
   follow_speed();
-  dt_ = kFirstStep;
   return true;
 }
 
@@ -230,6 +239,15 @@ bool Integration::try_fixed_step() {
   prepare(t_end - start_.t);
   const Trial trial = stepper_->try_step(system_, start_, t_end - start_.t, end_);
   outcome_.evaluations += trial.evaluations;
+  if (!accept_or_widen(trial)) return false;
+  end_.t = t_end;
+  system_.calc_energies(end_.at);
+  ++fixed_steps_;
+  return true;
+}
+
+/// Whether a fixed step is accepted. If not, widens the bristles for another try, or fails.
+bool Integration::accept_or_widen(const Trial& trial) {
   if (trial.status == EvaluationStatus::kBristleMissing) {
     widen_bristles();
     return false;
@@ -238,18 +256,13 @@ bool Integration::try_fixed_step() {
     fail(trial.status);
     return false;
   }
-  end_.t = t_end;
-  system_.calc_energies(end_.at);
-  ++fixed_steps_;
   return true;
 }
 
 bool Integration::try_controlled_step() {
   const double stop = std::min(options_.duration, piece_.end());
   const double remaining = stop - start_.t;
-  if (unstable_mode_limiter_.is_check_due(start_.t))
-    unstable_mode_limiter_.check_local_stability(system_, start_, *stepper_);
-  const double dt = std::min({dt_, unstable_mode_limiter_.max_step(), remaining});
+  const double dt = choose_step(remaining);
   prepare(dt);
   const Trial trial = try_step(dt);
   if (!accept_or_shrink(trial, dt)) return false;
@@ -257,14 +270,26 @@ bool Integration::try_controlled_step() {
     dt_ = 0.5 * dt;
     return false;
   }
-  dt_ = dt * control_.accept(trial.error);
+  set_next_step(dt, trial.error);
+  if (failed_ || !land_on_event(dt)) return false;
+  if (dt == remaining && end_.t - start_.t == dt) end_.t = stop;
+  return true;
+}
+
+/// @param remaining  time up to where the step is to end at the latest, [s]
+double Integration::choose_step(double remaining) {
+  if (unstable_mode_limiter_.is_check_due(start_.t))
+    unstable_mode_limiter_.check_local_stability(system_, start_, *stepper_);
+  return std::min({dt_, unstable_mode_limiter_.max_step(), remaining});
+}
+
+/// After a step whose error is within the tolerance. Fails if steps stay too short.
+void Integration::set_next_step(double dt, double error) {
+  dt_ = dt * control_.accept(error);
   hopeless_steps_ = dt_ < kHopeless ? hopeless_steps_ + 1 : 0;
   if (hopeless_steps_ == kMaxHopelessSteps)
     fail(RunStatus::kStepUnderflow,
          "the motion asks for steps below 1e-11 s: a linkage that jams does, and very light bodies in loops");
-  if (failed_ || !land_on_event(dt)) return false;
-  if (dt == remaining && end_.t - start_.t == dt) end_.t = stop;
-  return true;
 }
 
 /// Whether the step just tried has passed by what a table over position or velocity says.
@@ -322,12 +347,28 @@ bool Integration::land_on_event(double dt) {
 void Integration::accept() {
   ++outcome_.steps;
   energy_control_.accept(start_.at.energy, end_.at.energy);
+  observe_step();
+  stepper_->accept();
+  accept_contacts();
+  std::swap(start_, end_);
+  std::swap(rings_start_, rings_end_);
+  follow_speed();
+  if (begin_charts()) {
+    stepper_->invalidate();
+    evaluate_again(start_);
+  }
+}
+
+void Integration::observe_step() {
   observer_.on_step(start_.at, end_.at);
   if (observer_.wants_middle()) {
     if (evaluate_inside(0.5 * (start_.t + end_.t)) == EvaluationStatus::kOk) observer_.on_middle(sample_.at);
   }
   take_samples();
-  stepper_->accept();
+}
+
+/// Takes note of the contacts that began or ended in the step, and evaluates its end with them.
+void Integration::accept_contacts() {
   const ContactChange change = system_.accept_step(start_.at, end_.at, end_.y);
   if (change.ring_onsets + change.face_onsets > 0)
     observer_.on_onsets(change.ring_onsets, change.face_onsets);
@@ -338,13 +379,6 @@ void Integration::accept() {
   else if (change.any)
     stepper_->reset_convergence_rate();
   if (change.any) evaluate_again(end_);
-  std::swap(start_, end_);
-  std::swap(rings_start_, rings_end_);
-  follow_speed();
-  if (begin_charts()) {
-    stepper_->invalidate();
-    evaluate_again(start_);
-  }
 }
 
 /// Takes the samples up to the end of the step, with the contacts of the step.

@@ -31,13 +31,20 @@ class Integration {
 
  private:
   [[nodiscard]] bool start(const Evaluation& assembled);
+  void set_start(const Evaluation& assembled);
+  [[nodiscard]] bool can_continue();
   [[nodiscard]] bool try_fixed_step();
+  [[nodiscard]] bool accept_or_widen(const Trial& trial);
   [[nodiscard]] bool try_controlled_step();
+  [[nodiscard]] double choose_step(double remaining);
+  void set_next_step(double dt, double error);
   [[nodiscard]] bool passes_by_a_table() const;
   [[nodiscard]] Trial try_step(double dt);
   [[nodiscard]] bool accept_or_shrink(const Trial& trial, double dt);
   [[nodiscard]] bool land_on_event(double dt);
   void accept();
+  void observe_step();
+  void accept_contacts();
   void take_samples();
   [[nodiscard]] EvaluationStatus evaluate_inside(double t);
   [[nodiscard]] bool begin_charts();

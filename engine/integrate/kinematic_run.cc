@@ -52,24 +52,12 @@ class KinematicRun {
   }
 
   RunOutcome run() {
-    ++outcome_.evaluations;
-    if (!solve(0.0, nodes_[0], nodes_[0], nodes_[0])) {
+    if (!start()) {
       fail(RunStatus::kLockUp, kLocked);
       return outcome_;
     }
-    block_determinant_ = determinant_;
-    largest_determinant_ = std::abs(determinant_);
-    largest_rate_ = calc_largest_rate();
-    take_samples(nodes_[0], nodes_[0], true);
-    next_step_ = kFirstOfLongest * calc_longest();
-    for (long block = 0; nodes_[0].t < options_.duration && outcome_.status == RunStatus::kSucceeded;
-         ++block) {
-      if (block % kBlocksBetweenQueries == 0 && observer_.stop_requested(nodes_[0].t)) {
-        fail(RunStatus::kStopped, "stopped on request");
-      } else if (outcome_.steps >= options_.step_limit) {
-        fail(RunStatus::kStepLimit,
-             "the run needs more than " + std::to_string(options_.step_limit) + " steps");
-      } else if (!solve_block()) {
+    for (long block = 0; can_continue(block); ++block) {
+      if (!solve_block()) {
         fail_at_end();
       } else {
         report_block();
@@ -82,6 +70,28 @@ class KinematicRun {
 
  private:
   static constexpr const char* kLocked = "the linkage cannot follow its drives any further";
+
+  [[nodiscard]] bool start() {
+    ++outcome_.evaluations;
+    if (!solve(0.0, nodes_[0], nodes_[0], nodes_[0])) return false;
+    block_determinant_ = determinant_;
+    largest_determinant_ = std::abs(determinant_);
+    largest_rate_ = calc_largest_rate();
+    take_samples(nodes_[0], nodes_[0], true);
+    next_step_ = kFirstOfLongest * calc_longest();
+    return true;
+  }
+
+  /// Whether the run solves another block. Fails if it has taken too many steps, or is to stop.
+  [[nodiscard]] bool can_continue(long block) {
+    if (!(nodes_[0].t < options_.duration) || outcome_.status != RunStatus::kSucceeded) return false;
+    if (block % kBlocksBetweenQueries == 0 && observer_.stop_requested(nodes_[0].t))
+      fail(RunStatus::kStopped, "stopped on request");
+    else if (outcome_.steps >= options_.step_limit)
+      fail(RunStatus::kStepLimit,
+           "the run needs more than " + std::to_string(options_.step_limit) + " steps");
+    return outcome_.status == RunStatus::kSucceeded;
+  }
 
   void fail(RunStatus status, std::string detail) {
     outcome_.status = status;
@@ -239,31 +249,47 @@ class KinematicRun {
     // Share of the rates' squares. Smaller accelerations of a uniform motion do not count: next to a change
     // point they are rounding.
     constexpr double kUniform = 0.3;
-    const std::vector<FrameIndex>& unknown = closure_.unknown_coordinates();
-    double of_accelerations = 0.0;
-    double fastest = 0.0;
-    for (const FrameIndex i : unknown)
-      for (const Evaluation& node : nodes_) fastest = std::max(fastest, std::abs(node.qd[i]));
+    const double fastest = calc_fastest_rate();
     acceleration_scale_ =
         std::max({0.5 * acceleration_scale_, kNegligibleRate, kUniform * fastest * fastest});
+    const double acceleration_error = interpolate_accelerations();
+    power_error_ = interpolate_powers();
+    interpolation_error_ = std::max(acceleration_error / acceleration_scale_, power_error_ / power_scale_);
+    return interpolation_error_ <= kResolved;
+  }
+
+  /// Largest rate of an unknown coordinate in the block.
+  [[nodiscard]] double calc_fastest_rate() const {
+    double fastest = 0.0;
+    for (const FrameIndex i : closure_.unknown_coordinates())
+      for (const Evaluation& node : nodes_) fastest = std::max(fastest, std::abs(node.qd[i]));
+    return fastest;
+  }
+
+  /// @returns the largest fourth difference; the scale of accelerations is at least the largest of them then
+  double interpolate_accelerations() {
+    const std::vector<FrameIndex>& unknown = closure_.unknown_coordinates();
+    double error = 0.0;
     for (std::size_t j = 0; j < unknown.size(); ++j) {
       const double largest =
           interpolate(accelerations_[j], [i = unknown[j]](const Evaluation& at) { return at.qdd[i]; });
       acceleration_scale_ = std::max(acceleration_scale_, largest);
-      of_accelerations =
-          std::max(of_accelerations, std::abs(accelerations_[j].interpolant().fourth_difference()));
+      error = std::max(error, std::abs(accelerations_[j].interpolant().fourth_difference()));
     }
-    double of_powers = 0.0;
+    return error;
+  }
+
+  /// The same for powers.
+  double interpolate_powers() {
+    double error = 0.0;
     block_power_ = 0.0;
     for (std::size_t k = 0; k < powers_.size(); ++k) {
       const auto power = [this, k](const Evaluation& at) { return calc_power(at, k); };
       block_power_ = std::max(block_power_, interpolate(powers_[k], power));
       power_scale_ = std::max(power_scale_, block_power_);
-      of_powers = std::max(of_powers, std::abs(powers_[k].interpolant().fourth_difference()));
+      error = std::max(error, std::abs(powers_[k].interpolant().fourth_difference()));
     }
-    power_error_ = of_powers;
-    interpolation_error_ = std::max(of_accelerations / acceleration_scale_, of_powers / power_scale_);
-    return interpolation_error_ <= kResolved;
+    return error;
   }
 
   /// Whether the powers of the drives go on next to a change point as they came. Where a drive works against
@@ -291,22 +317,8 @@ class KinematicRun {
   void report_block() {
     collect_split_instants();
     for (std::size_t k = 1; k <= kSteps; ++k) set_work(nodes_[k]);
-    auto split = splits_.begin();
-    for (std::size_t k = 0; k < kSteps; ++k) {
-      const Evaluation* from = &nodes_[k];
-      const double apart = 0.1 * kExtremumStep * (nodes_[k + 1].t - nodes_[k].t);
-      for (std::size_t i = 0; split != splits_.end() && *split < nodes_[k + 1].t; ++split) {
-        if (*split < from->t + apart || *split > nodes_[k + 1].t - apart || !is_far(k)) continue;
-        Evaluation& at = extra_[i];
-        ++outcome_.evaluations;
-        if (!solve(*split, nodes_[k], nodes_[k + 1], at)) continue;
-        set_work(at);
-        accept(*from, at, true);
-        from = &at;
-        i = 1 - i;
-      }
-      accept(*from, nodes_[k + 1], is_far(k));
-    }
+    auto split = splits_.cbegin();
+    for (std::size_t k = 0; k < kSteps; ++k) split = report_step(k, split);
     passed_power_ = std::max(passed_power_, block_power_);
     block_determinant_ = end_determinant_;
     largest_determinant_ = std::max(largest_determinant_, std::abs(end_determinant_));
@@ -316,9 +328,34 @@ class KinematicRun {
       largest_rate_ = std::max(largest_rate_, calc_largest_rate());
   }
 
+  /// @param split  the first instant that may lie in the step  @returns the first behind it
+  std::vector<double>::const_iterator report_step(std::size_t k, std::vector<double>::const_iterator split) {
+    const Evaluation* from = &nodes_[k];
+    const double apart = 0.1 * kExtremumStep * (nodes_[k + 1].t - nodes_[k].t);
+    for (std::size_t i = 0; split != splits_.end() && *split < nodes_[k + 1].t; ++split) {
+      if (*split < from->t + apart || *split > nodes_[k + 1].t - apart || !is_far(k)) continue;
+      Evaluation& at = extra_[i];
+      ++outcome_.evaluations;
+      if (!solve(*split, nodes_[k], nodes_[k + 1], at)) continue;
+      set_work(at);
+      accept(*from, at, true);
+      from = &at;
+      i = 1 - i;
+    }
+    accept(*from, nodes_[k + 1], is_far(k));
+    return split;
+  }
+
   /// Instants of the block at which a step is to end, in order.
   void collect_split_instants() {
     splits_.clear();
+    split_at_accelerations();
+    split_at_loads();
+    std::sort(splits_.begin(), splits_.end());
+  }
+
+  /// On both sides of their extrema.
+  void split_at_accelerations() {
     const double half = 0.5 * kExtremumStep;
     double largest = 0.0;
     for (const TrackedQuantity& acceleration : accelerations_)
@@ -328,6 +365,10 @@ class KinematicRun {
         add_split(s - half);
         add_split(s + half);
       });
+  }
+
+  /// In the extrema of drive forces and reactions.
+  void split_at_loads() {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       const std::size_t drives = mechanism_.drives.size();
       const auto load = [&](const Evaluation& at) {
@@ -337,7 +378,6 @@ class KinematicRun {
       interpolate(loads_[k], load);
       loads_[k].for_each_extremum(loads_[k].largest(), [&](double s) { add_split(s); });
     }
-    std::sort(splits_.begin(), splits_.end());
   }
 
   void add_split(double s) {

@@ -18,6 +18,16 @@ bool carries(const Mechanism& mechanism, FrameIndex carrier, FrameIndex frame) {
   return frame == carrier;
 }
 
+/// Moment of inertia of a body about the axis of a joint.
+double calc_moment_of_inertia(const Coordinate& body, const FrameMotion& f, const FrameMotion& joint) {
+  const Eigen::Vector3d s_F = f.R.transpose() * joint.axis;
+  const Eigen::Vector3d arm = f.R.transpose() * (f.p - joint.p);
+  // Velocity of the body's origin at a joint rate of 1 rad/s.
+  const Eigen::Vector3d origin_rate = s_F.cross(arm);
+  return body.mass * (origin_rate.squaredNorm() + 2.0 * origin_rate.dot(s_F.cross(body.com))) +
+         s_F.dot(body.inertia * s_F);
+}
+
 }  // namespace
 
 double calc_gyration_radius(const Mechanism& mechanism, FrameIndex rotation,
@@ -28,14 +38,8 @@ double calc_gyration_radius(const Mechanism& mechanism, FrameIndex rotation,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Coordinate& body = mechanism.coordinates[i];
     if (body.mass == 0.0 || !carries(mechanism, rotation, static_cast<FrameIndex>(i))) continue;
-    const FrameMotion& f = frames[i];
-    const Eigen::Vector3d s_F = f.R.transpose() * joint.axis;
-    const Eigen::Vector3d arm = f.R.transpose() * (f.p - joint.p);
-    // Velocity of the body's origin at a joint rate of 1 rad/s.
-    const Eigen::Vector3d origin_rate = s_F.cross(arm);
     mass += body.mass;
-    moment += body.mass * (origin_rate.squaredNorm() + 2.0 * origin_rate.dot(s_F.cross(body.com))) +
-              s_F.dot(body.inertia * s_F);
+    moment += calc_moment_of_inertia(body, frames[i], joint);
   }
   return mass > 0.0 ? std::sqrt(moment / mass) : 1.0;
 }

@@ -6,14 +6,21 @@
 
 namespace engine {
 
+namespace {
+
+bool has_friction_force(const Evaluation& at) {
+  return std::ranges::any_of(at.joints,
+                             [](const JointState& joint) { return joint.load.friction_sum > 0.0; });
+}
+
+}  // namespace
+
 void UnstableModeLimiter::check_local_stability(MotionSystem& system, const StepPoint& start,
                                                 Stepper& stepper) {
   const double since = start.t - std::exchange(last_check_, start.t);
   const double log_growth = std::exchange(log_growth_, 0.0);
   max_step_ = longest_step_;
-  if (std::ranges::none_of(start.at.joints,
-                           [](const JointState& joint) { return joint.load.friction_sum > 0.0; }))
-    return;
+  if (!has_friction_force(start.at)) return;
   const NewtonSolver solver = system.choose_newton_solver(stepper.shifts());
   if (system.linearise(start.t, start.y, solver) != EvaluationStatus::kOk) return stepper.invalidate();
   const Instability found = modes_.find(system);
