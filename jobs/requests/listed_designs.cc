@@ -62,7 +62,7 @@ bool are_parameters_known(const std::vector<Fault>& faults) {
       faults, [](const Fault& fault) { return fault.pointer.starts_with("/parameters"); });
 }
 
-/// Number of axes that have the centre among their values. Adds the faults of a centre that lacks a value.
+/// Number of axes that have the centre among their values. Adds the faults of a centre that misses a value.
 std::uint64_t count_axes_with_centre(const ordered_json& design, const json& parameters,
                                      std::vector<Fault>& faults) {
   const auto centre = centre_of(design, parameters);

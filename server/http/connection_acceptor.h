@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/socket.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -12,8 +14,6 @@
 #include <vector>
 
 #include "server/http/pending_connection.h"
-
-struct sockaddr_storage;
 
 namespace server {
 
