@@ -24,26 +24,31 @@ PressedArc::PressedArc(const engine::WornBore& bore, int ring, double c_r, std::
   pressure_.resize(count);
 }
 
-void PressedArc::add(double work, double theta, double penetration, std::vector<double>& by_sector) {
-  const double distance = c_r_ + bore_.calc_added_clearance(ring_, theta).value + penetration;
+PressedArc::Load PressedArc::calc_pressures(double distance, double theta) {
   const double x = distance * std::cos(theta);
   const double y = distance * std::sin(theta);
-  double sum = 0.0;
-  std::size_t deepest = 0;
+  Load load;
   double most = -distance;
   for (std::size_t k = 0; k < pressure_.size(); ++k) {
     const double depth = x * cosine_[k] + y * sine_[k] - gap_[k];
     if (depth > most) {
       most = depth;
-      deepest = k;
+      load.deepest = k;
     }
-    sum += pressure_[k] = std::max(depth, 0.0);
+    load.pressure += pressure_[k] = std::max(depth, 0.0);
   }
-  if (!(sum > 0.0)) {  // between two of the points
-    by_sector[deepest / points_] += work;
+  return load;
+}
+
+void PressedArc::add(double work, double theta, double penetration, std::vector<double>& by_sector) {
+  const double distance = c_r_ + bore_.calc_added_clearance(ring_, theta).value + penetration;
+  const Load load = calc_pressures(distance, theta);
+  if (!(load.pressure > 0.0)) {  // between two of the points
+    by_sector[load.deepest / points_] += work;
     return;
   }
-  for (std::size_t k = 0; k < pressure_.size(); ++k) by_sector[k / points_] += work * (pressure_[k] / sum);
+  for (std::size_t k = 0; k < pressure_.size(); ++k)
+    by_sector[k / points_] += work * (pressure_[k] / load.pressure);
 }
 
 }  // namespace jobs

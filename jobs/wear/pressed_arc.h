@@ -22,6 +22,14 @@ class PressedArc {
   void add(double work, double theta, double penetration, std::vector<double>& by_sector);
 
  private:
+  /// Sum of the pressures, and the point that lies deepest in the journal, or nearest to it.
+  struct Load {
+    double pressure = 0.0;
+    std::size_t deepest = 0;
+  };
+  /// Sets the pressures under a ring whose centre lies at a distance in the direction theta.
+  Load calc_pressures(double distance, double theta);
+
   const engine::WornBore& bore_;
   int ring_;
   double c_r_;

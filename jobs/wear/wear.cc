@@ -56,6 +56,17 @@ RingChannels ring_channels(const engine::Trajectory& run, const std::string& pre
           worn ? &find(key + "_penetration_j_m") : nullptr};
 }
 
+/// The joints whose journals slide in a bore. @throws WrongState without one
+std::vector<std::string> list_joints_with_bore(const std::vector<std::string>& kept) {
+  std::vector<std::string> joints;
+  for (const std::string& channel : kept)
+    if (channel.ends_with(kFirstRing))
+      joints.push_back(channel.substr(0, channel.size() - kFirstRing.size()));
+  if (joints.empty())
+    throw WrongState("no joint of this job has a journal that slides in a bore with clearance");
+  return joints;
+}
+
 /// Sliding work in each sector. @param arc  where a worn bore is pressed; null: in the direction of the
 /// contact
 std::vector<double> gather(const RingChannels& ring, std::size_t sectors, PressedArc* arc) {
@@ -74,6 +85,77 @@ std::vector<double> gather(const RingChannels& ring, std::size_t sectors, Presse
   return work;
 }
 
+void check_wear_query(const WearQuery& query, double clearance_mm) {
+  if (!(clearance_mm > 0.0)) throw WrongState("the joint of this job has no clearance, and does not slide");
+  if (query.worn_clearance && !(*query.worn_clearance > clearance_mm)) {
+    throw InvalidRequest(
+        std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the joint, " +
+                                                      number_text(clearance_mm) + " mm"}});
+  }
+}
+
+/// Maker of the map of one bearing, ring by ring.
+class WearMapper {
+ public:
+  /// @param run  of two samples or more
+  WearMapper(const WornBearing& bearing, const engine::Trajectory& run, const WearQuery& query)
+      : bearing_(bearing),
+        run_(run),
+        query_(query),
+        clearance_mm_(bearing.parameters.at("clearance_mm")),
+        length_mm_(bearing.parameters.at("bearing_length_mm")),
+        rings_(bearing.parameters.at("radial_levels")),
+        sector_(kTurn / static_cast<double>(query.sectors)),
+        area_(1e-6 * bearing.parameters.at("bearing_radius_mm").get<double>() * sector_ * length_mm_ /
+              rings_),
+        hours_((run.columns[0].back() - run.columns[0].front()) / 3600.0) {
+    const json& parameters = bearing.parameters;
+    if (parameters.contains(kWearKey))
+      bore_.emplace(1e-3 * clearance_mm_, to_wear_depth(parameters.at(kWearKey)));
+  }
+
+  [[nodiscard]] int rings() const { return rings_; }
+
+  void add_ring(int ring, ResultTable& table) const {
+    const double position_mm =
+        rings_ == 1 ? 0.0 : length_mm_ * (static_cast<double>(ring - 1) / (rings_ - 1) - 0.5);
+    const std::vector<double> work = gather_work(ring);
+    for (std::size_t s = 0; s < work.size(); ++s) {
+      const double depth_um = 1e6 * query_.wear_coefficient * work[s] / area_;
+      const double rate = depth_um / hours_;
+      const double angle = (static_cast<double>(s) + 0.5) * sector_;
+      const double life = calc_life(ring, angle, rate);
+      table.rows.push_back(
+          {ring, position_mm, angle, work[s], depth_um, rate, std::isfinite(life) ? json(life) : json()});
+    }
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> gather_work(int ring) const {
+    std::optional<PressedArc> arc;
+    if (bore_) arc.emplace(*bore_, ring - 1, 1e-3 * clearance_mm_, query_.sectors);
+    return gather(ring_channels(run_, bearing_.prefix, ring, bore_.has_value()), query_.sectors,
+                  arc ? &*arc : nullptr);
+  }
+
+  /// Time until the clearance at an angle is the worn one, [h]. @param rate  of the wear there, [um/h]
+  [[nodiscard]] double calc_life(int ring, double angle, double rate) const {
+    if (!query_.worn_clearance) return kNever;
+    const double worn_um = bore_ ? 1e6 * bore_->calc_depth(ring - 1, angle) : 0.0;
+    return std::max(1e3 * (*query_.worn_clearance - clearance_mm_) - worn_um, 0.0) / rate;
+  }
+
+  const WornBearing& bearing_;
+  const engine::Trajectory& run_;
+  const WearQuery& query_;
+  const double clearance_mm_, length_mm_;
+  const int rings_;
+  const double sector_;                   ///< angle, [rad]
+  const double area_;                     ///< of a cell, [m^2]
+  const double hours_;                    ///< of the run
+  std::optional<engine::WornBore> bore_;  ///< empty: round
+};
+
 }  // namespace
 
 WornBearing find_worn_bearing(const json& parameters, const std::vector<std::string>& kept,
@@ -82,12 +164,7 @@ WornBearing find_worn_bearing(const json& parameters, const std::vector<std::str
     if (joint.empty()) return {.prefix = "", .parameters = parameters};
     throw InvalidRequest(std::vector<Fault>{{"/joint", "belongs to described linkages: leave it out"}});
   }
-  std::vector<std::string> joints;
-  for (const std::string& channel : kept)
-    if (channel.ends_with(kFirstRing))
-      joints.push_back(channel.substr(0, channel.size() - kFirstRing.size()));
-  if (joints.empty())
-    throw WrongState("no joint of this job has a journal that slides in a bore with clearance");
+  const std::vector<std::string> joints = list_joints_with_bore(kept);
   const std::string& name = joint.empty() ? joints.front() : joint;
   if (std::ranges::find(joints, name) == joints.end())
     throw InvalidRequest(
@@ -109,49 +186,14 @@ std::vector<std::string> wear_channels(const WornBearing& bearing) {
 }
 
 ResultTable make_wear_map(const WornBearing& bearing, const engine::Trajectory& run, const WearQuery& query) {
-  const json& parameters = bearing.parameters;
-  const double clearance_mm = parameters.at("clearance_mm");
-  if (!(clearance_mm > 0.0)) throw WrongState("the joint of this job has no clearance, and does not slide");
-  if (query.worn_clearance && !(*query.worn_clearance > clearance_mm)) {
-    throw InvalidRequest(
-        std::vector<Fault>{{"/worn_clearance_mm", "must be more than the clearance of the joint, " +
-                                                      number_text(clearance_mm) + " mm"}});
-  }
+  check_wear_query(query, bearing.parameters.at("clearance_mm"));
   if (run.columns.at(0).size() < 2) throw WrongState("a wear map needs two samples or more");
-  const int rings = parameters.at("radial_levels");
-  const double length_mm = parameters.at("bearing_length_mm");
-  const double sector = kTurn / static_cast<double>(query.sectors);
-  const double area =
-      1e-6 * parameters.at("bearing_radius_mm").get<double>() * sector * length_mm / rings;  // [m^2]
-  std::optional<engine::WornBore> bore;
-  if (parameters.contains(kWearKey)) {
-    bore.emplace(1e-3 * clearance_mm, to_wear_depth(parameters.at(kWearKey)));
-  }
-  const double hours = (run.columns[0].back() - run.columns[0].front()) / 3600.0;
   ResultTable table{
       .columns = {"ring", "position_mm", "angle_rad", "sliding_work_j", "depth_um", "rate_um_h", "life_h"},
       .rows = {},
       .ended = true};
-  for (int ring = 1; ring <= rings; ++ring) {
-    const double position_mm =
-        rings == 1 ? 0.0 : length_mm * (static_cast<double>(ring - 1) / (rings - 1) - 0.5);
-    std::optional<PressedArc> arc;
-    if (bore) arc.emplace(*bore, ring - 1, 1e-3 * clearance_mm, query.sectors);
-    const auto work =
-        gather(ring_channels(run, bearing.prefix, ring, bore.has_value()), query.sectors,
-               arc ? &*arc : nullptr);
-    for (std::size_t s = 0; s < work.size(); ++s) {
-      const double depth_um = 1e6 * query.wear_coefficient * work[s] / area;
-      const double rate = depth_um / hours;
-      const double angle = (static_cast<double>(s) + 0.5) * sector;
-      const double worn_um = bore ? 1e6 * bore->calc_depth(ring - 1, angle) : 0.0;
-      const double life = query.worn_clearance
-                              ? std::max(1e3 * (*query.worn_clearance - clearance_mm) - worn_um, 0.0) / rate
-                              : kNever;
-      table.rows.push_back(
-          {ring, position_mm, angle, work[s], depth_um, rate, std::isfinite(life) ? json(life) : json()});
-    }
-  }
+  const WearMapper mapper(bearing, run, query);
+  for (int ring = 1; ring <= mapper.rings(); ++ring) mapper.add_ring(ring, table);
   return table;
 }
 

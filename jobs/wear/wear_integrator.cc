@@ -80,14 +80,8 @@ void WearIntegrator::advance(const FindWear& find) {
 void WearIntegrator::end_step(WearEvaluation evaluation) {
   std::optional<double> change;
   if (!history_.cycles.empty()) {
-    WearCycle& from = history_.cycles.back();
-    change = calc_rate_change(from, evaluation.rate_um_h);
-    if (*change > rule_.rate_change && part_ > kLeastPart) {
-      ++history_.rejected;
-      part_ *= 0.5;
-      begin_step(from, 0.5 * from.step_hours);
-      return;
-    }
+    change = calc_rate_change(history_.cycles.back(), evaluation.rate_um_h);
+    if (*change > rule_.rate_change && part_ > kLeastPart) return reject_step();
     part_ = std::min(1.0, 2.0 * part_);
   }
   history_.cycles.push_back({.job = evaluation.job,
@@ -96,7 +90,17 @@ void WearIntegrator::end_step(WearEvaluation evaluation) {
                              .depth_um = std::move(depth_um_),
                              .rate_um_h = std::move(evaluation.rate_um_h)});
   history_.verdict = judge(rule_, history_);
-  if (history_.verdict != WearVerdict::kOpen) return;
+  if (history_.verdict == WearVerdict::kOpen) begin_next_step();
+}
+
+void WearIntegrator::reject_step() {
+  ++history_.rejected;
+  part_ *= 0.5;
+  WearCycle& from = history_.cycles.back();
+  begin_step(from, 0.5 * from.step_hours);
+}
+
+void WearIntegrator::begin_next_step() {
   WearCycle& from = history_.cycles.back();
   begin_step(
       from, std::min(part_ * rule_.depth_step_um / largest_of(from.rate_um_h), calc_hours_left(rule_, from)));

@@ -79,6 +79,9 @@ class WearIntegrator {
  private:
   /// Accepts the step to the evaluated bore, or rejects it and halves it.
   void end_step(WearEvaluation evaluation);
+  /// Goes back to the last accepted bore, and half as far from there.
+  void reject_step();
+  void begin_next_step();
   void begin_step(WearCycle& from, double hours);
 
   WearRule rule_;

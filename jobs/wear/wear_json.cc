@@ -78,6 +78,15 @@ json cycles_json(const ResultTable& table, const WearHistory& history) {
   return cycles;
 }
 
+/// Where each metric stands in a table of jobs.
+std::vector<std::size_t> find_metric_columns(const ResultTable& jobs) {
+  std::vector<std::size_t> columns;
+  for (const engine::QuantityInfo& metric : engine::metric_table())
+    columns.push_back(
+        static_cast<std::size_t>(std::ranges::find(jobs.columns, metric.key) - jobs.columns.begin()));
+  return columns;
+}
+
 }  // namespace
 
 json wear_summary_json(const StudyRow& row) {
@@ -113,12 +122,8 @@ ResultTable wear_table(const StudyRow& row, const WearStudyRequest& study, const
   const ResultTable jobs = result_table(results, {});
   ResultTable table{.columns = {kWearColumns.begin(), kWearColumns.end()}, .rows = {},
                     .ended = row.state != "running"};
-  std::vector<std::size_t> metrics;
-  for (const engine::QuantityInfo& metric : engine::metric_table()) {
-    metrics.push_back(
-        static_cast<std::size_t>(std::ranges::find(jobs.columns, metric.key) - jobs.columns.begin()));
-    table.columns.push_back(metric.key);
-  }
+  for (const engine::QuantityInfo& metric : engine::metric_table()) table.columns.push_back(metric.key);
+  const std::vector<std::size_t> metrics = find_metric_columns(jobs);
   for (const WearCycle& cycle : history.cycles) {
     const auto& job = jobs.rows.at(cycle.job);
     std::vector<json> cells = cells_of(cycle, table.rows.size() + 1, job.front().get<std::string>(), study);

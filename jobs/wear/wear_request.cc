@@ -18,6 +18,26 @@ using nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 4> kKeysOfItsSweep{"name", "parameters", "reuse", "priority"};
 
+/// The part of a study's request that is of its sweep.
+ordered_json sweep_part_of(const ordered_json& request) {
+  ordered_json sweep = ordered_json::object();
+  for (const std::string_view key : kKeysOfItsSweep)
+    if (request.contains(key)) sweep[std::string(key)] = request.at(key);
+  return sweep;
+}
+
+/// Parameter with which a bearing cannot be worn from new.
+std::optional<Fault> find_unfit_parameter(const json& given) {
+  if (describes_linkage(given))
+    return Fault{"/parameters/linkage", "must be \"rpsup\": the bearing that is worn is that linkage's"};
+  if (given.contains(kWearKey))
+    return Fault{"/parameters" + pointer_token(kWearKey),
+                 "must be left out: a study begins with a round bore"};
+  if (keeps_metrics_alone(given))
+    return Fault{"/parameters" + pointer_token(kKeepKey), std::string(kNeedsTrajectories)};
+  return std::nullopt;
+}
+
 /// Reads one request; a member function a part of it.
 class WearParser {
  public:
@@ -39,6 +59,10 @@ class WearParser {
  private:
   void fault(std::string pointer, std::string detail) {
     faults_.push_back({std::move(pointer), std::move(detail)});
+  }
+
+  void add_faults(const InvalidRequest& invalid) {
+    faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
   }
 
   template <typename T>
@@ -74,31 +98,13 @@ class WearParser {
   }
 
   void read_common() {
-    ordered_json common = ordered_json::object();
-    for (const std::string_view key : kKeysOfItsSweep) {
-      if (request_.contains(key)) common[std::string(key)] = request_.at(key);
-    }
     try {
-      study_.common = parse_sweep_request(common, max_jobs_);
+      study_.common = parse_sweep_request(sweep_part_of(request_), max_jobs_);
+      const json& given = study_.common.parameters;
+      if (auto unfit = find_unfit_parameter(given)) return faults_.push_back(std::move(*unfit));
+      study_.completed = complete_parameters(given, "/parameters");
     } catch (const InvalidRequest& invalid) {
-      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
-      return;
-    }
-    const json& given = study_.common.parameters;
-    if (describes_linkage(given)) {
-      return fault("/parameters/linkage", "must be \"rpsup\": the bearing that is worn is that linkage's");
-    }
-    if (given.contains(kWearKey)) {
-      return fault("/parameters" + pointer_token(kWearKey),
-                   "must be left out: a study begins with a round bore");
-    }
-    if (keeps_metrics_alone(given))
-      return fault("/parameters" + pointer_token(kKeepKey), std::string(kNeedsTrajectories));
-    try {
-      study_.completed = complete_parameters(study_.common.parameters, "/parameters");
-    } catch (const InvalidRequest& invalid) {
-      faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
-      return;
+      return add_faults(invalid);
     }
     check_joint();
     check_window();
@@ -112,15 +118,19 @@ class WearParser {
     if (study_.completed.at("contact") != "continuum") {
       fault("/parameters/contact", "must be \"continuum\": a worn bore is for that form of the contact");
     }
-    if (!study_.query.worn_clearance) return;
+    if (study_.query.worn_clearance) set_deepest(clearance, *study_.query.worn_clearance);
+  }
+
+  /// Sets the depth that ends the study. Both clearances in mm.
+  void set_deepest(double clearance, double worn_clearance) {
     const double most = clearance + 0.1 * study_.completed.at("bearing_radius_mm").get<double>();
     if (const Range range{clearance, most, Bound::kExclusive, Bound::kExclusive};
-        !range.contains(*study_.query.worn_clearance)) {
+        !range.contains(worn_clearance)) {
       fault("/worn_clearance_mm",
             "must be " + range.text() +
                 " mm: more than the clearance, by less than a tenth of the bearing's radius");
     }
-    study_.rule.deepest_um = 1e3 * (*study_.query.worn_clearance - clearance);
+    study_.rule.deepest_um = 1e3 * (worn_clearance - clearance);
   }
 
   /// The rate of wear is taken from the steady motion.
@@ -148,10 +158,7 @@ WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max
 ordered_json case_of(const WearGrid& depth_um) { return {{std::string(kWearKey), depth_um}}; }
 
 ordered_json first_sweep_of(const ordered_json& request, const WearStudyRequest& study) {
-  ordered_json sweep = ordered_json::object();
-  for (const std::string_view key : kKeysOfItsSweep) {
-    if (request.contains(key)) sweep[std::string(key)] = request.at(key);
-  }
+  ordered_json sweep = sweep_part_of(request);
   sweep["cases"] = ordered_json::array({case_of(study.round_bore())});
   return sweep;
 }
