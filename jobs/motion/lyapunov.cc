@@ -68,6 +68,15 @@ struct BlockGrowth {
   double time = 0.0;
 };
 
+BlockGrowth sum_growth(std::span<const BlockGrowth> blocks) {
+  BlockGrowth sum;
+  for (const BlockGrowth& block : blocks) {
+    sum.rise += block.rise;
+    sum.time += block.time;
+  }
+  return sum;
+}
+
 /// Bartlett's estimate of the variance of a sum of consecutive residuals, from their products over less than
 /// kSpan blocks; about their mean it is too small by that part of the sample (Newey and West, Econometrica 55
 /// (1987) 703-708; Anderson, The Statistical Analysis of Time Series, chapter 8).
@@ -81,21 +90,23 @@ double calc_variance_of_sum(std::span<const double> residuals) {
   return sum / (1.0 - static_cast<double>(kSpan) / static_cast<double>(residuals.size()));
 }
 
+/// Degrees of freedom of the residuals of blocks, which count with their times: fewer where these differ.
+double calc_degrees_of_freedom(std::span<const BlockGrowth> blocks, double time) {
+  double time_squares = 0.0;
+  for (const BlockGrowth& block : blocks) time_squares += block.time * block.time;
+  // Bartlett's window has 3/2 of the degrees of freedom of spans that do not overlap
+  return 1.5 * time * time / time_squares / static_cast<double>(kSpan) - 1.0;
+}
+
 /// Ratio of sums over blocks, with Student's interval of its linearised residuals (Cochran, Sampling
-/// Techniques, section 6.4). Blocks count with their times: fewer degrees of freedom where these differ.
+/// Techniques, section 6.4).
 Estimate estimate_ratio(std::span<const BlockGrowth> blocks) {
   constexpr double kConfidence = 0.95;
-  double rise = 0.0, time = 0.0, time_squares = 0.0;
-  for (const BlockGrowth& block : blocks) {
-    rise += block.rise;
-    time += block.time;
-    time_squares += block.time * block.time;
-  }
+  const auto [rise, time] = sum_growth(blocks);
   const double ratio = rise / time;
   std::vector<double> residuals;
   for (const BlockGrowth& block : blocks) residuals.push_back(block.rise - ratio * block.time);
-  // Bartlett's window has 3/2 of the degrees of freedom of spans that do not overlap
-  const double freedom = 1.5 * time * time / time_squares / static_cast<double>(kSpan) - 1.0;
+  const double freedom = calc_degrees_of_freedom(blocks, time);
   if (residuals.size() < 2 * kSpan || !(freedom > 0.0)) {
     const double infinite = std::numeric_limits<double>::infinity();
     return {ratio, -infinite, infinite};
@@ -130,29 +141,70 @@ std::optional<BlockMean> find_block_mean(std::span<const double> t, const Follow
   return mean;
 }
 
-/// Growth from block to block of the time from the first begin of a stretch to the last end.
-std::vector<BlockGrowth> gather_blocks(std::span<const double> t, std::span<const Followed> followed) {
-  std::size_t first = t.size(), last = 0;
+/// Division of points into blocks of nearly equal size.
+struct BlockDivision {
+  std::size_t first = 0, points = 0, blocks = 0;
+
+  [[nodiscard]] std::size_t begin_of(std::size_t block) const { return first + block * points / blocks; }
+};
+
+/// Division from the first begin of a stretch to the last end.
+BlockDivision divide_stretches(std::span<const Followed> followed) {
+  std::size_t first = followed.front().stretch.first, last = 0;
   for (const Followed& neighbour : followed) {
     first = std::min(first, neighbour.stretch.first);
     last = std::max(last, neighbour.stretch.last);
   }
   const std::size_t points = last + 1 - first;
-  const std::size_t count = std::min(kBlocks, points);
-  std::vector<BlockGrowth> blocks(count - 1);
-  for (const Followed& neighbour : followed) {
-    std::optional<BlockMean> before;
-    for (std::size_t b = 0; b < count; ++b) {
-      const auto mean =
-          find_block_mean(t, neighbour, first + b * points / count, first + (b + 1) * points / count);
-      if (before && mean) {
-        blocks[b - 1].rise += mean->logarithm - before->logarithm;
-        blocks[b - 1].time += mean->time - before->time;
-      }
-      before = mean;
+  return {.first = first, .points = points, .blocks = std::min(kBlocks, points)};
+}
+
+void add_growth(std::span<const double> t, const Followed& neighbour, const BlockDivision& division,
+                std::vector<BlockGrowth>& growth) {
+  std::optional<BlockMean> before;
+  for (std::size_t b = 0; b < division.blocks; ++b) {
+    const auto mean = find_block_mean(t, neighbour, division.begin_of(b), division.begin_of(b + 1));
+    if (before && mean) {
+      growth[b - 1].rise += mean->logarithm - before->logarithm;
+      growth[b - 1].time += mean->time - before->time;
     }
+    before = mean;
   }
-  return blocks;
+}
+
+/// Growth from block to block. @param followed  one or more
+std::vector<BlockGrowth> gather_blocks(std::span<const double> t, std::span<const Followed> followed) {
+  const BlockDivision division = divide_stretches(followed);
+  std::vector<BlockGrowth> growth(division.blocks - 1);
+  for (const Followed& neighbour : followed) add_growth(t, neighbour, division, growth);
+  return growth;
+}
+
+/// The neighbours that are measured: those whose distance is resolved, or all if no one's is.
+std::vector<Followed> choose_followed(std::span<const GrowthPhase> stretches,
+                                      const std::vector<std::vector<double>>& curves) {
+  const bool resolved = std::ranges::any_of(stretches, &GrowthPhase::resolved);
+  std::vector<Followed> followed;
+  for (std::size_t k = 0; k < curves.size(); ++k)
+    if (stretches[k].resolved == resolved && stretches[k].first < stretches[k].last)
+      followed.push_back({stretches[k], &curves[k]});
+  return followed;
+}
+
+void set_mean_stretch(std::span<const double> t, std::span<const Followed> followed, Divergence& divergence) {
+  const auto count = static_cast<double>(followed.size());
+  for (const Followed& neighbour : followed) {
+    divergence.from += t[neighbour.stretch.first] / count;
+    divergence.to += t[neighbour.stretch.last] / count;
+  }
+}
+
+/// The interval, wider by the exponent that a distance has which grows with the first power of time.
+/// @param age  from the time at which the runs began to differ to the stretch, [s]
+/// @param measured  length of the stretch, [s]
+Estimate widen_interval(const Estimate& exponent, double age, double measured) {
+  const double linear = std::log1p(measured / std::max(age, kLeastAge * measured)) / measured;
+  return {exponent.value, exponent.low - linear, exponent.high + linear};
 }
 
 /// t_s, and the position of the journal in each joint with clearance. @throws WrongState without one
@@ -219,60 +271,81 @@ Divergence DivergenceMeasurement::finish() const {
   Divergence divergence;
   std::vector<GrowthPhase> stretches;
   for (const auto& curve : curves_) stretches.push_back(find_stretch(curve));
-  const bool resolved = std::ranges::any_of(stretches, &GrowthPhase::resolved);
-  std::vector<Followed> followed;
-  for (std::size_t k = 0; k < curves_.size(); ++k) {
-    divergence.parted += stretches[k].parted ? 1 : 0;
-    if (stretches[k].resolved == resolved && stretches[k].first < stretches[k].last)
-      followed.push_back({stretches[k], &curves_[k]});
-  }
+  divergence.parted =
+      static_cast<std::size_t>(std::ranges::count_if(stretches, &GrowthPhase::parted));
+  const std::vector<Followed> followed = choose_followed(stretches, curves_);
   if (followed.empty()) return divergence;
   const Estimate exponent = estimate_ratio(gather_blocks(times_, followed));
   if (!std::isfinite(exponent.value)) return divergence;
-  const auto count = static_cast<double>(followed.size());
-  for (const Followed& neighbour : followed) {
-    divergence.from += times_[neighbour.stretch.first] / count;
-    divergence.to += times_[neighbour.stretch.last] / count;
-  }
-  const double measured = divergence.to - divergence.from;
-  const double age = std::max(divergence.from - start_, kLeastAge * measured);
-  const double linear = std::log1p(measured / age) / measured;
-  divergence.exponent = Estimate{exponent.value, exponent.low - linear, exponent.high + linear};
+  set_mean_stretch(times_, followed, divergence);
+  divergence.exponent = widen_interval(exponent, divergence.from - start_, divergence.to - divergence.from);
   return divergence;
 }
 
-ResultTable make_lyapunov(const json& axes, const ResultTable& results, const RunReader& reader) {
+namespace {
+
+void check_replicates(const ResultTable& results) {
   if (std::ranges::find(results.columns, "replicate") == results.columns.end())
     throw WrongState("the sweep has no replicates, which could part");
   if (results.rows.size() > kMostJobsOfDiagram) {
     throw WrongState("the sweep has " + std::to_string(results.rows.size()) +
                      " jobs; exponents are measured of " + std::to_string(kMostJobsOfDiagram) + " at most");
   }
+}
+
+/// Reader of the runs of a table's jobs.
+class OrbitReader {
+ public:
+  OrbitReader(const ResultTable& results, const RunReader& reader)
+      : results_(results),
+        reader_(reader),
+        job_(find_column(results, "job_id", "")),
+        run_up_(std::ranges::find(results.columns, "run_up_s") - results.columns.begin()) {}
+
+  [[nodiscard]] std::optional<engine::Trajectory> find(std::size_t row) const {
+    return find_orbit(results_.rows[row][job_], reader_);
+  }
+  /// Time at which the run-up of a job ends, [s].
+  [[nodiscard]] double run_up_of(std::size_t row) const {
+    const auto& cells = results_.rows[row];
+    return run_up_ < std::ssize(cells) ? cells[static_cast<std::size_t>(run_up_)].get<double>() : 0.0;
+  }
+
+ private:
+  const ResultTable& results_;
+  const RunReader& reader_;
+  const std::size_t job_;
+  const std::ptrdiff_t run_up_;  ///< column; beyond the last one: there is none
+};
+
+/// Cells of a set of replicates, the first of which is not perturbed.
+std::vector<json> measure_set(std::span<const std::size_t> rows, const OrbitReader& orbits) {
+  const auto run = orbits.find(rows.front());
+  if (!run) return cells_of(0, {});
+  DivergenceMeasurement measurement(run->columns.front(), positions_of(*run), orbits.run_up_of(rows.front()));
+  std::size_t pairs = 0;
+  for (const std::size_t row : rows.subspan(1)) {
+    const auto neighbour = orbits.find(row);
+    if (!neighbour) continue;
+    ++pairs;
+    measurement.add(positions_of(*neighbour));
+  }
+  return cells_of(pairs, measurement.finish());
+}
+
+}  // namespace
+
+ResultTable make_lyapunov(const json& axes, const ResultTable& results, const RunReader& reader) {
+  check_replicates(results);
   ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
   std::vector<std::size_t> swept;
   for (const std::string& path : table.columns) swept.push_back(find_column(results, path, ""));
   table.columns.insert(table.columns.end(), {"pairs", "pairs_diverged", "exponent_1_s", "exponent_low_1_s",
                                              "exponent_high_1_s", "from_s", "to_s"});
-  const std::size_t job = find_column(results, "job_id", "");
-  const auto run_up = std::ranges::find(results.columns, "run_up_s") - results.columns.begin();
+  const OrbitReader orbits(results, reader);
   for (const RowGroup& set : group_rows(results, swept)) {
-    const auto& unperturbed = results.rows[set.rows.front()];
-    const double begin =
-        run_up < std::ssize(unperturbed) ? unperturbed[static_cast<std::size_t>(run_up)].get<double>() : 0.0;
     std::vector<json> cells = set.values;
-    std::size_t pairs = 0;
-    Divergence divergence;
-    if (const auto run = find_orbit(unperturbed[job], reader)) {
-      DivergenceMeasurement measurement(run->columns.front(), positions_of(*run), begin);
-      for (const std::size_t row : std::span(set.rows).subspan(1)) {
-        const auto neighbour = find_orbit(results.rows[row][job], reader);
-        if (!neighbour) continue;
-        ++pairs;
-        measurement.add(positions_of(*neighbour));
-      }
-      divergence = measurement.finish();
-    }
-    const auto measured = cells_of(pairs, divergence);
+    const auto measured = measure_set(set.rows, orbits);
     cells.insert(cells.end(), measured.begin(), measured.end());
     table.rows.push_back(std::move(cells));
   }

@@ -95,11 +95,13 @@ void check_channel(const std::string& channel, const std::string& angle) {
 class Interpolant {
  public:
   Interpolant(const engine::Trajectory& run, std::size_t channel)
-      : t_(run.columns.front()), x_(run.columns[channel]), smooth_(is_smooth(run.channels[channel].key)) {
+      : t_(run.columns.front()), x_(run.columns.at(channel)), smooth_(is_smooth(run.channels[channel].key)) {
     const Derivatives names = derivatives_of(run.channels[channel].key);
     rate_ = find_column_of(run, names.rate);
     if (rate_ != nullptr) acceleration_ = find_column_of(run, names.acceleration);
   }
+
+  [[nodiscard]] double at_sample(std::size_t k) const { return x_[k]; }
 
   /// @param k  the sample that ends the interval, 1 or more  @param u  of the interval, from 0 to 1
   [[nodiscard]] double at(std::size_t k, double u) const {
@@ -152,6 +154,44 @@ double find_passage(const Interpolant& angle, std::size_t k, double value, bool 
   return high;
 }
 
+/// Begin of a turn between two samples.
+struct TurnBegin {
+  double turn = 0.0;
+  double part = 0.0;  ///< of the interval
+};
+
+/// @param k  the sample that ends the interval  @returns empty if no turn begins in it
+std::optional<TurnBegin> find_turn(const Interpolant& angle, std::size_t k, double phase) {
+  const double before = (angle.at_sample(k - 1) - phase) / (2.0 * std::numbers::pi);
+  const double after = (angle.at_sample(k) - phase) / (2.0 * std::numbers::pi);
+  // The whole number in (before, after], or in [after, before) of a crank that turns back.
+  const double turn = after > before ? std::floor(after) : std::ceil(after);
+  if (after == before || (after > before ? turn <= before : turn >= before)) return std::nullopt;
+  const double passed = phase + 2.0 * std::numbers::pi * turn;
+  return TurnBegin{.turn = turn,
+                   .part = turn == after ? 1.0 : find_passage(angle, k, passed, after > before)};
+}
+
+std::size_t find_angle(const engine::Trajectory& run, const SectionChannels& channels) {
+  const auto found = std::ranges::find(run.channels, channels.angle, &engine::QuantityInfo::key);
+  return static_cast<std::size_t>(found - run.channels.begin());
+}
+
+/// Gives a section its channels, and no rows yet. @returns the wanted ones, between their samples
+std::vector<Interpolant> begin_section(const engine::Trajectory& run, const SectionChannels& channels,
+                                       engine::Trajectory& section) {
+  section.channels = {run.channels[0], {.key = "turn", .help = "turns since the place at rest"}};
+  std::vector<Interpolant> wanted;
+  for (std::size_t c = 1; c < run.columns.size(); ++c) {
+    const std::string& key = run.channels[c].key;
+    if (key == channels.angle || !is_among(channels.wanted, key)) continue;
+    section.channels.push_back(run.channels[c]);
+    wanted.emplace_back(run, c);
+  }
+  section.columns.resize(section.channels.size());
+  return wanted;
+}
+
 }  // namespace
 
 SectionChannels choose_section(const std::vector<std::string>& kept, const std::string& angle,
@@ -171,71 +211,92 @@ SectionChannels choose_section(const std::vector<std::string>& kept, const std::
 
 engine::Trajectory take_section(const engine::Trajectory& run, const SectionChannels& channels,
                                 double phase) {
-  const auto angle_at = static_cast<std::size_t>(
-      std::ranges::find(run.channels, channels.angle, &engine::QuantityInfo::key) - run.channels.begin());
   const std::vector<double>& t = run.columns.at(0);
-  const std::vector<double>& angle = run.columns.at(angle_at);
-  const Interpolant angle_between(run, angle_at);
+  const Interpolant angle(run, find_angle(run, channels));
   engine::Trajectory section;
-  section.channels = {run.channels[0], {.key = "turn", .help = "turns since the place at rest"}};
-  std::vector<Interpolant> others;
-  for (std::size_t c = 1; c < run.columns.size(); ++c) {
-    if (c == angle_at || !is_among(channels.wanted, run.channels[c].key)) continue;
-    section.channels.push_back(run.channels[c]);
-    others.emplace_back(run, c);
-  }
-  section.columns.resize(section.channels.size());
+  const std::vector<Interpolant> wanted = begin_section(run, channels, section);
   for (std::size_t k = 1; k < t.size(); ++k) {
-    const double before = (angle[k - 1] - phase) / (2.0 * std::numbers::pi);
-    const double after = (angle[k] - phase) / (2.0 * std::numbers::pi);
-    // The whole number in (before, after], or in [after, before) of a crank that turns back.
-    const double turn = after > before ? std::floor(after) : std::ceil(after);
-    if (after == before || (after > before ? turn <= before : turn >= before)) continue;
-    const double passed = phase + 2.0 * std::numbers::pi * turn;
-    const double part = turn == after ? 1.0 : find_passage(angle_between, k, passed, after > before);
-    section.columns[0].push_back(std::lerp(t[k - 1], t[k], part));
-    section.columns[1].push_back(turn);
-    for (std::size_t c = 0; c < others.size(); ++c) section.columns[c + 2].push_back(others[c].at(k, part));
+    const auto begin = find_turn(angle, k, phase);
+    if (!begin) continue;
+    section.columns[0].push_back(std::lerp(t[k - 1], t[k], begin->part));
+    section.columns[1].push_back(begin->turn);
+    for (std::size_t c = 0; c < wanted.size(); ++c)
+      section.columns[c + 2].push_back(wanted[c].at(k, begin->part));
   }
   return section;
 }
 
-ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& results,
-                             const BifurcationQuery& query, const RunReader& reader) {
+namespace {
+
+void check_job_count(const ResultTable& results) {
   if (results.rows.size() > kMostJobsOfDiagram) {
     throw WrongState("the sweep has " + std::to_string(results.rows.size()) + " jobs; a diagram is made of " +
                      std::to_string(kMostJobsOfDiagram) + " at most");
   }
-  ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
-  std::vector<std::size_t> swept;
-  for (const std::string& path : table.columns) swept.push_back(find_column(results, path, ""));
-  const std::size_t run_up = find_column(results, "run_up_s", "");
-  const std::size_t job = find_column(results, "job_id", "");
-  std::string channel = query.channel;
-  for (const auto& row : results.rows) {
-    const std::string job_id = row[job].get<std::string>();
-    const std::vector<std::string> kept = reader.list_channels(job_id);
-    if (kept.empty()) continue;
-    if (channel.empty()) channel = choose_section(kept, query.angle, {}).wanted.front();
-    const SectionChannels channels = choose_section(kept, query.angle, {channel});
-    check_channel(channel, channels.angle);
+}
+
+/// Maker of a bifurcation diagram, job by job.
+class DiagramMaker {
+ public:
+  DiagramMaker(const nlohmann::json& axes, const ResultTable& results, const BifurcationQuery& query,
+               const RunReader& reader)
+      : results_(results),
+        query_(query),
+        reader_(reader),
+        run_up_(find_column(results, "run_up_s", "")),
+        job_(find_column(results, "job_id", "")),
+        channel_(query.channel),
+        table_{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended} {
+    for (const std::string& path : table_.columns) swept_.push_back(find_column(results, path, ""));
+  }
+
+  ResultTable make() {
+    for (const auto& row : results_.rows) add_job(row);
+    table_.columns.insert(table_.columns.end(), {"job_id", "t_s", channel_});
+    return std::move(table_);
+  }
+
+ private:
+  void add_job(const std::vector<nlohmann::json>& row) {
+    const std::string job_id = row[job_].get<std::string>();
+    const std::vector<std::string> kept = reader_.list_channels(job_id);
+    if (kept.empty()) return;
+    if (channel_.empty()) channel_ = choose_section(kept, query_.angle, {}).wanted.front();
+    const SectionChannels channels = choose_section(kept, query_.angle, {channel_});
+    check_channel(channel_, channels.angle);
     const TrajectoryQuery wanted{.channels = channels.read,
-                                 .from = query.from ? *query.from : row[run_up].get<double>(),
+                                 .from = query_.from ? *query_.from : row[run_up_].get<double>(),
                                  .to = {}};
-    const auto run = reader.find(job_id, wanted);
-    if (!run) continue;
-    const engine::Trajectory section = take_section(*run, channels, query.phase);
+    const auto run = reader_.find(job_id, wanted);
+    if (run) add_points(row, take_section(*run, channels, query_.phase));
+  }
+
+  void add_points(const std::vector<nlohmann::json>& row, const engine::Trajectory& section) {
     for (std::size_t k = 0; k < section.columns[0].size(); ++k) {
       std::vector<nlohmann::json> cells;
-      for (const std::size_t column : swept) cells.push_back(row[column]);
+      for (const std::size_t column : swept_) cells.push_back(row[column]);
       const double value = section.columns.back()[k];
-      cells.insert(cells.end(), {row[job], section.columns[0][k],
+      cells.insert(cells.end(), {row[job_], section.columns[0][k],
                                  std::isfinite(value) ? nlohmann::json(value) : nlohmann::json()});
-      table.rows.push_back(std::move(cells));
+      table_.rows.push_back(std::move(cells));
     }
   }
-  table.columns.insert(table.columns.end(), {"job_id", "t_s", channel});
-  return table;
+
+  const ResultTable& results_;
+  const BifurcationQuery& query_;
+  const RunReader& reader_;
+  const std::size_t run_up_, job_;  ///< columns
+  std::string channel_;             ///< empty: that of the first job is to be chosen
+  ResultTable table_;
+  std::vector<std::size_t> swept_;  ///< columns
+};
+
+}  // namespace
+
+ResultTable make_bifurcation(const nlohmann::json& axes, const ResultTable& results,
+                             const BifurcationQuery& query, const RunReader& reader) {
+  check_job_count(results);
+  return DiagramMaker(axes, results, query, reader).make();
 }
 
 }  // namespace jobs

@@ -25,6 +25,13 @@ bool is_smooth(std::size_t n) {
   return n == 1;
 }
 
+/// The longest first part whose length is smooth.
+std::span<const double> cut_to_smooth_length(std::span<const double> samples) {
+  std::size_t n = samples.size();
+  while (!is_smooth(n)) --n;
+  return samples.first(n);
+}
+
 /// Sums of cosines over a whole period, with alternating signs.
 double window_at(Window window, double part) {
   constexpr std::array<double, 5> kFlatTop{0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368};
@@ -35,6 +42,32 @@ double window_at(Window window, double part) {
   for (std::size_t k = 0; k < kFlatTop.size(); ++k)
     sum += (k % 2 == 0 ? 1.0 : -1.0) * kFlatTop[k] * std::cos(static_cast<double>(k) * phase);
   return sum;
+}
+
+/// Samples without their mean, times a window, and the sums of its weights and of their squares.
+struct WindowedSamples {
+  std::vector<double> values;
+  double weights = 0.0, squares = 0.0;
+};
+
+WindowedSamples apply_window(std::span<const double> samples, double mean, Window window) {
+  WindowedSamples made;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double w = window_at(window, static_cast<double>(k) / static_cast<double>(samples.size()));
+    made.values.push_back(w * (samples[k] - mean));
+    made.weights += w;
+    made.squares += w * w;
+  }
+  return made;
+}
+
+/// Fourier transform at the frequencies from 0 to half the rate.
+std::vector<std::complex<double>> transform_half(const std::vector<double>& values) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<std::complex<double>> transformed;
+  fft.fwd(transformed, values);
+  return transformed;
 }
 
 /// The samples that follow each other at the rate of the first two; a run may end between two of them.
@@ -54,30 +87,18 @@ std::optional<Window> find_window(std::string_view name) {
 }
 
 Spectrum calc_spectrum(std::span<const double> samples, double rate, Window window) {
-  std::size_t n = samples.size();
-  while (!is_smooth(n)) --n;
-  samples = samples.first(n);
+  samples = cut_to_smooth_length(samples);
+  const std::size_t n = samples.size();
   const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(n);
-  std::vector<double> weighted;
-  double sum = 0.0;
-  double squares = 0.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double w = window_at(window, static_cast<double>(k) / static_cast<double>(n));
-    weighted.push_back(w * (samples[k] - mean));
-    sum += w;
-    squares += w * w;
-  }
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<std::complex<double>> transformed;
-  fft.fwd(transformed, weighted);
+  const WindowedSamples windowed = apply_window(samples, mean, window);
+  const std::vector<std::complex<double>> transformed = transform_half(windowed.values);
   Spectrum spectrum;
   for (std::size_t k = 0; k < n / 2 + 1; ++k) {
     const bool alone = k == 0 || 2 * k == n;  // without a mirror image
     const double size = std::abs(transformed[k]);
     spectrum.frequency.push_back(rate * static_cast<double>(k) / static_cast<double>(n));
-    spectrum.amplitude.push_back(k == 0 ? std::abs(mean) : (alone ? 1.0 : 2.0) * size / sum);
-    spectrum.density.push_back((alone ? 1.0 : 2.0) * size * size / (rate * squares));
+    spectrum.amplitude.push_back(k == 0 ? std::abs(mean) : (alone ? 1.0 : 2.0) * size / windowed.weights);
+    spectrum.density.push_back((alone ? 1.0 : 2.0) * size * size / (rate * windowed.squares));
   }
   return spectrum;
 }
