@@ -27,6 +27,42 @@ constexpr int kMostEvaluations = 100'000;  // far more than the tolerances let a
 struct DestroyNlopt {
   void operator()(nlopt_opt optimiser) const { nlopt_destroy(optimiser); }
 };
+using NloptPointer = std::unique_ptr<nlopt_opt_s, DestroyNlopt>;
+
+void check_dimensions(const LocalOptions& options) {
+  const bool is_bobyqa = options.method == LocalMethod::kBobyqa;
+  engine::require(options.start.size() > (is_bobyqa ? 1U : 0U), "start",
+                  is_bobyqa ? "of two variables or more" : "of a variable");
+}
+
+/// The first start that has a value, or whose value is not known yet; empty: none has one.
+std::optional<UnitPoint> find_valid_start(const LocalOptions& options,
+                                          const PointSearch::FindFitness& find_fitness) {
+  std::vector<UnitPoint> starts{options.start};
+  for (UnitPoint& point : sobol_points(kMostStarts, options.start.size(), options.seed))
+    starts.push_back(std::move(point));
+  const auto has_no_value = [&](const UnitPoint& point) {
+    const auto fitness = find_fitness(point);
+    return fitness && !(fitness->front() < kMostFitness);
+  };
+  const auto start = std::ranges::find_if_not(starts, has_no_value);
+  return start == starts.end() ? std::nullopt : std::optional(*start);
+}
+
+/// Optimiser without an objective.
+NloptPointer make_optimiser(const LocalOptions& options) {
+  const auto n = static_cast<unsigned>(options.start.size());
+  const bool is_bobyqa = options.method == LocalMethod::kBobyqa;
+  NloptPointer optimiser(nlopt_create(is_bobyqa ? NLOPT_LN_BOBYQA : NLOPT_LN_NELDERMEAD, n));
+  if (!optimiser) throw std::bad_alloc();
+  nlopt_set_lower_bounds1(optimiser.get(), 0.0);
+  nlopt_set_upper_bounds1(optimiser.get(), 1.0);
+  nlopt_set_initial_step1(optimiser.get(), options.first_step);
+  nlopt_set_xtol_abs1(optimiser.get(), options.step_tolerance);
+  nlopt_set_ftol_rel(optimiser.get(), options.gain_tolerance);
+  nlopt_set_maxeval(optimiser.get(), kMostEvaluations);
+  return optimiser;
+}
 
 /// One way of the algorithm from its start.
 struct Path {
@@ -66,43 +102,30 @@ double evaluate_on_path(unsigned n, const double* x, double*, void* data) noexce
   }
 }
 
-}  // namespace
-
-std::vector<UnitPoint> LocalSearch::ask(const FindFitness& find_fitness) {
-  const auto n = static_cast<unsigned>(options_.start.size());
-  const bool is_bobyqa = options_.method == LocalMethod::kBobyqa;
-  engine::require(n > (is_bobyqa ? 1U : 0U), "start",
-                  is_bobyqa ? "of two variables or more" : "of a variable");
-  std::vector<UnitPoint> starts{options_.start};
-  for (UnitPoint& point : sobol_points(kMostStarts, n, options_.seed)) starts.push_back(std::move(point));
-  const auto has_no_value = [&](const UnitPoint& point) {
-    const auto fitness = find_fitness(point);
-    return fitness && !(fitness->front() < kMostFitness);
-  };
-  const auto start = std::ranges::find_if_not(starts, has_no_value);
-  if (start == starts.end()) return {};
-  const auto start_fitness = find_fitness(*start);
-  if (!start_fitness) return {*start};
-  const std::unique_ptr<nlopt_opt_s, DestroyNlopt> optimiser(
-      nlopt_create(is_bobyqa ? NLOPT_LN_BOBYQA : NLOPT_LN_NELDERMEAD, n));
-  if (!optimiser) throw std::bad_alloc();
-  Path path{.find_fitness = find_fitness,
-            .optimiser = optimiser.get(),
-            .needs_values = is_bobyqa,
-            .worst = start_fitness->front()};
-  nlopt_set_min_objective(optimiser.get(), evaluate_on_path, &path);
-  nlopt_set_lower_bounds1(optimiser.get(), 0.0);
-  nlopt_set_upper_bounds1(optimiser.get(), 1.0);
-  nlopt_set_initial_step1(optimiser.get(), options_.first_step);
-  nlopt_set_xtol_abs1(optimiser.get(), options_.step_tolerance);
-  nlopt_set_ftol_rel(optimiser.get(), options_.gain_tolerance);
-  nlopt_set_maxeval(optimiser.get(), kMostEvaluations);
-  UnitPoint x = *start;
+/// Runs an optimiser from a start. @throws what the evaluation of a point has thrown
+void run_search(Path& path, UnitPoint start) {
+  nlopt_set_min_objective(path.optimiser, evaluate_on_path, &path);
   double least = 0.0;
-  const nlopt_result result = nlopt_optimize(optimiser.get(), x.data(), &least);
+  const nlopt_result result = nlopt_optimize(path.optimiser, start.data(), &least);
   if (path.error) std::rethrow_exception(path.error);
   if (result == NLOPT_OUT_OF_MEMORY) throw std::bad_alloc();
   if (result == NLOPT_INVALID_ARGS) throw std::logic_error("NLopt takes no such search");
+}
+
+}  // namespace
+
+std::vector<UnitPoint> LocalSearch::ask(const FindFitness& find_fitness) {
+  check_dimensions(options_);
+  const auto start = find_valid_start(options_, find_fitness);
+  if (!start) return {};
+  const auto start_fitness = find_fitness(*start);
+  if (!start_fitness) return {*start};
+  const NloptPointer optimiser = make_optimiser(options_);
+  Path path{.find_fitness = find_fitness,
+            .optimiser = optimiser.get(),
+            .needs_values = options_.method == LocalMethod::kBobyqa,
+            .worst = start_fitness->front()};
+  run_search(path, *start);
   known_ = path.known.size();
   if (path.missing) return {*path.missing};
   return {};  // whatever has ended it: rounding errors that leave nothing to gain, too

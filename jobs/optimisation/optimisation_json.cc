@@ -167,31 +167,53 @@ const std::vector<std::string>& candidate_columns() {
   return columns;
 }
 
+namespace {
+
+std::vector<std::string> table_columns(const OptimisationRequest& request) {
+  std::vector<std::string> columns = candidate_columns();
+  for (const Variable& variable : request.variables) columns.push_back(variable.path);
+  for (const Objective& objective : request.objectives) columns.push_back(objective.metric);
+  for (const MetricBound& bound : request.bounds) columns.push_back(column_of(bound));
+  return columns;
+}
+
+/// Objectives and bounds of a candidate; null unless it has all its values.
+void add_metric_cells(const OptimisationRequest& request, const OptimisationCandidate& candidate,
+                      std::vector<json>& cells) {
+  const CandidateState state = state_of(request, candidate);
+  const bool has_values = state == CandidateState::kFeasible || state == CandidateState::kInfeasible;
+  for (std::size_t i = 0; i < request.objectives.size(); ++i)
+    cells.push_back(has_values ? json(objective_of(request, candidate, i)) : json());
+  for (std::size_t i = 0; i < request.bounds.size(); ++i)
+    cells.push_back(has_values ? json(bound_value_of(request, candidate, i)) : json());
+}
+
+/// @param number  of the row
+std::vector<json> candidate_cells(const Optimiser& optimiser, const ListedCandidate& listed,
+                                  std::size_t number, bool is_on_front) {
+  const OptimisationCandidate& candidate = optimiser.candidates()[listed.index];
+  const CandidateState state = state_of(optimiser.request(), candidate);
+  std::vector<json> cells{number,
+                          value_or_null(listed.start),
+                          state_name(state),
+                          state == CandidateState::kLost ? value_or_null(candidate.lost_reason) : json(),
+                          is_on_front,
+                          candidate.job_ids.empty() ? json() : json(candidate.job_ids.front())};
+  cells.insert(cells.end(), candidate.values.begin(), candidate.values.end());
+  add_metric_cells(optimiser.request(), candidate, cells);
+  return cells;
+}
+
+}  // namespace
+
 ResultTable candidate_table(const StudyRow& row, const Optimiser& optimiser) {
-  const OptimisationRequest& request = optimiser.request();
-  ResultTable table{.columns = candidate_columns(), .rows = {}, .ended = row.state != "running"};
-  for (const Variable& variable : request.variables) table.columns.push_back(variable.path);
-  for (const Objective& objective : request.objectives) table.columns.push_back(objective.metric);
-  for (const MetricBound& bound : request.bounds) table.columns.push_back(column_of(bound));
+  ResultTable table{
+      .columns = table_columns(optimiser.request()), .rows = {}, .ended = row.state != "running"};
   std::set<std::size_t> front;
   for (const ListedCandidate& listed : optimiser.find_front()) front.insert(listed.index);
-  for (const ListedCandidate& listed : optimiser.list_candidates()) {
-    const OptimisationCandidate& candidate = optimiser.candidates()[listed.index];
-    const CandidateState state = state_of(request, candidate);
-    std::vector<json> cells{table.rows.size(),
-                            value_or_null(listed.start),
-                            state_name(state),
-                            state == CandidateState::kLost ? value_or_null(candidate.lost_reason) : json(),
-                            front.contains(listed.index),
-                            candidate.job_ids.empty() ? json() : json(candidate.job_ids.front())};
-    cells.insert(cells.end(), candidate.values.begin(), candidate.values.end());
-    const bool has_values = state == CandidateState::kFeasible || state == CandidateState::kInfeasible;
-    for (std::size_t i = 0; i < request.objectives.size(); ++i)
-      cells.push_back(has_values ? json(objective_of(request, candidate, i)) : json());
-    for (std::size_t i = 0; i < request.bounds.size(); ++i)
-      cells.push_back(has_values ? json(bound_value_of(request, candidate, i)) : json());
-    table.rows.push_back(std::move(cells));
-  }
+  for (const ListedCandidate& listed : optimiser.list_candidates())
+    table.rows.push_back(
+        candidate_cells(optimiser, listed, table.rows.size(), front.contains(listed.index)));
   return table;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "jobs/parameters/parameter_value.h"
@@ -76,22 +75,25 @@ class OptimisationParser : private RequestParser {
       return fault("/objectives", "must be a list of 1 to " + std::to_string(kMostObjectives) +
                                       " objects, {\"metric\": \"peak_slider_acceleration_m_s2\", \"goal\": "
                                       "\"minimise\"}, say");
-    std::set<std::string> told;
-    for (std::size_t k = 0; k < given.size(); ++k) {
-      const std::string pointer = "/objectives/" + std::to_string(k);
-      const std::size_t before = faults_.size();
-      constexpr std::array<std::string_view, 3> kKeys{"metric", "goal", "quantile"};
-      Objective objective{.metric = read_metric(given[k], pointer, kKeys)};
-      if (faults_.size() > before) continue;
-      if (!told.insert(objective.metric).second) fault(pointer + "/metric", "is an objective already");
-      const json goal = given[k].value("goal", json("minimise"));
-      if (goal != "minimise" && goal != "maximise")
-        fault(pointer + "/goal", "must be \"minimise\" or \"maximise\"");
-      objective.goal = goal == "maximise" ? Goal::kMaximise : Goal::kMinimise;
-      objective.quantile = read_quantile(given[k], pointer, objective.goal == Goal::kMinimise ? 1.0 : 0.0);
-      made_.objectives.push_back(std::move(objective));
-    }
+    for (std::size_t k = 0; k < given.size(); ++k)
+      read_objective(given[k], "/objectives/" + std::to_string(k));
     if (made_.objectives.size() > 1) made_.method = PopulationMethod::kNsga2;
+  }
+
+  void read_objective(const json& given, const std::string& pointer) {
+    const std::size_t before = faults_.size();
+    constexpr std::array<std::string_view, 3> kKeys{"metric", "goal", "quantile"};
+    Objective objective{.metric = read_metric(given, pointer, kKeys)};
+    if (faults_.size() > before) return;
+    const auto& others = made_.objectives;
+    if (std::ranges::find(others, objective.metric, &Objective::metric) != others.end())
+      fault(pointer + "/metric", "is an objective already");
+    const json goal = given.value("goal", json("minimise"));
+    if (goal != "minimise" && goal != "maximise")
+      fault(pointer + "/goal", "must be \"minimise\" or \"maximise\"");
+    objective.goal = goal == "maximise" ? Goal::kMaximise : Goal::kMinimise;
+    objective.quantile = read_quantile(given, pointer, objective.goal == Goal::kMinimise ? 1.0 : 0.0);
+    made_.objectives.push_back(std::move(objective));
   }
 
   void read_method() {
@@ -104,7 +106,10 @@ class OptimisationParser : private RequestParser {
       return fault("/method",
                    single ? "must be \"cma_es\", \"nelder_mead\" or \"bobyqa\", as there is one objective"
                           : "must be \"nsga2\", as there are several objectives");
-    if (!made_.local_method) return;
+    if (made_.local_method) check_local_method();
+  }
+
+  void check_local_method() {
     for (const Variable& variable : made_.variables)
       if (variable.integer)
         fault("/method", "must be \"cma_es\", as " + variable.path + " has whole numbers only");
@@ -126,15 +131,16 @@ class OptimisationParser : private RequestParser {
     }
     check_keys_of(given, pointer, keys);
     const json metric = given.value("metric", json());
-    if (!metric.is_string()) {
-      fault(pointer + "/metric", "must be the name of a metric");
-      return {};
-    }
+    if (!is_right(pointer + "/metric", describe_metric_fault(metric))) return {};
+    return metric.get<std::string>();
+  }
+
+  [[nodiscard]] std::string describe_metric_fault(const json& metric) const {
+    if (!metric.is_string()) return "must be the name of a metric";
     const std::string name = metric.get<std::string>();
     const std::vector<std::string_view> known(metrics_.begin(), metrics_.end());
-    if (!known.empty() && std::ranges::find(known, name) == known.end())
-      fault(pointer + "/metric", "\"" + name + "\": " + describe_unknown_key(name, known));
-    return name;
+    if (known.empty() || std::ranges::find(known, name) != known.end()) return "";
+    return "\"" + name + "\": " + describe_unknown_key(name, known);
   }
 
   double read_quantile(const json& given, const std::string& pointer, double worst) {
@@ -159,12 +165,8 @@ class OptimisationParser : private RequestParser {
     const std::size_t before = faults_.size();
     constexpr std::array<std::string_view, 4> kKeys{"metric", "minimum", "maximum", "quantile"};
     MetricBound bound{.metric = read_metric(given, pointer, kKeys)};
+    if (faults_.size() == before) read_limit(given, pointer, bound);
     if (faults_.size() > before) return;
-    if (given.contains("minimum") == given.contains("maximum"))
-      return fault(pointer, "must have either minimum or maximum; two bounds are two objects");
-    const char* const end = given.contains("maximum") ? "maximum" : "minimum";
-    if (!is_right(pointer + "/" + end, describe_number_fault({}, "", given.at(end)))) return;
-    (given.contains("maximum") ? bound.maximum : bound.minimum) = given.at(end).get<double>();
     const auto is_same = [&](const MetricBound& other) {
       return other.metric == bound.metric && std::isfinite(other.maximum) == std::isfinite(bound.maximum);
     };
@@ -172,6 +174,14 @@ class OptimisationParser : private RequestParser {
       fault(pointer, "bounds the metric on that side, as another one does");
     bound.quantile = read_quantile(given, pointer, given.contains("maximum") ? 1.0 : 0.0);
     made_.bounds.push_back(std::move(bound));
+  }
+
+  void read_limit(const json& given, const std::string& pointer, MetricBound& bound) {
+    if (given.contains("minimum") == given.contains("maximum"))
+      return fault(pointer, "must have either minimum or maximum; two bounds are two objects");
+    const char* const end = given.contains("maximum") ? "maximum" : "minimum";
+    if (is_right(pointer + "/" + end, describe_number_fault({}, "", given.at(end))))
+      (given.contains("maximum") ? bound.maximum : bound.minimum) = given.at(end).get<double>();
   }
 
   void read_numbers() {

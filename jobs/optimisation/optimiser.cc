@@ -58,6 +58,16 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
   return better;
 }
 
+/// Removes what a candidate dominates from a front. @param values  of the front
+void remove_dominated(const std::vector<double>& one, std::vector<ListedCandidate>& front,
+                      std::vector<std::vector<double>>& values) {
+  for (std::size_t i = front.size(); i-- > 0;) {
+    if (!dominates(one, values[i])) continue;
+    front.erase(front.begin() + static_cast<std::ptrdiff_t>(i));
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 std::unique_ptr<PointSearch> make_population_search(const OptimisationRequest& request, std::size_t start) {
   return std::make_unique<PopulationSearch>(
       PopulationOptions{.method = request.method,
@@ -188,11 +198,7 @@ std::vector<ListedCandidate> Optimiser::find_front() const {
     const std::vector<double> one = minimised_of(request_, candidate);
     const auto is_as_good = [&](const auto& other) { return other == one || dominates(other, one); };
     if (std::ranges::any_of(values, is_as_good)) continue;
-    for (std::size_t i = front.size(); i-- > 0;) {
-      if (!dominates(one, values[i])) continue;
-      front.erase(front.begin() + static_cast<std::ptrdiff_t>(i));
-      values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+    remove_dominated(one, front, values);
     front.push_back(listed);
     values.push_back(one);
   }
@@ -252,31 +258,37 @@ std::optional<std::vector<double>> Optimiser::find_fitness(const std::vector<dou
 }
 
 void Optimiser::ask_start(StartSearch& start, NextCases& next) {
-  const std::size_t share = request_.budget / starts_.size();
   while (start.end == StartEnd::kRunning) {
-    const auto missing = start.search->ask([&](const UnitPoint& point) {
-      const std::vector<double> values = candidate_at(request_, point);
-      if (start.seen.insert(values).second) start.in_order.push_back(values);
-      return find_fitness(values);
-    });
-    if (missing.empty()) start.end = StartEnd::kConverged;
-    else if (start.seen.size() > share) start.end = StartEnd::kBudget;
-    if (start.end != StartEnd::kRunning) return;
     bool waits = false;
-    for (const UnitPoint& point : missing) {
-      const std::vector<double> values = candidate_at(request_, point);
-      const bool is_new = !indices_.contains(values);
-      OptimisationCandidate& candidate = candidates_[index_of(values)];
-      if (is_new) {
-        ordered_json one_case = case_of(request_, values);
-        candidate.pending = count_jobs(one_case);
-        if (candidate.pending > 0) next.cases.push_back(std::move(one_case));
-        else candidate.lost_reason = std::string(kInvalidParameters);
-      }
-      waits |= candidate.pending > 0;
-    }
+    for (const UnitPoint& point : ask_search(start))
+      waits |= add_candidate(candidate_at(request_, point), next);
     if (waits) return;
   }
+}
+
+std::vector<UnitPoint> Optimiser::ask_search(StartSearch& start) const {
+  const std::size_t share = request_.budget / starts_.size();
+  auto missing = start.search->ask([&](const UnitPoint& point) {
+    const std::vector<double> values = candidate_at(request_, point);
+    if (start.seen.insert(values).second) start.in_order.push_back(values);
+    return find_fitness(values);
+  });
+  if (missing.empty()) start.end = StartEnd::kConverged;
+  else if (start.seen.size() > share) start.end = StartEnd::kBudget;
+  if (start.end != StartEnd::kRunning) missing.clear();
+  return missing;
+}
+
+bool Optimiser::add_candidate(const std::vector<double>& values, NextCases& next) {
+  const bool is_new = !indices_.contains(values);
+  OptimisationCandidate& candidate = candidates_[index_of(values)];
+  if (is_new) {
+    ordered_json one_case = case_of(request_, values);
+    candidate.pending = count_jobs(one_case);
+    if (candidate.pending > 0) next.cases.push_back(std::move(one_case));
+    else candidate.lost_reason = std::string(kInvalidParameters);
+  }
+  return candidate.pending > 0;
 }
 
 std::size_t Optimiser::count_jobs(const ordered_json& one_case) {

@@ -95,6 +95,10 @@ class Optimiser final : public StudySampler {
   [[nodiscard]] std::optional<std::vector<double>> find_fitness(const std::vector<double>& values) const;
   /// Cases of the next candidates of one start.
   void ask_start(StartSearch& start, NextCases& next);
+  /// Points that a search asks for; none if it has ended.
+  [[nodiscard]] std::vector<UnitPoint> ask_search(StartSearch& start) const;
+  /// Adds a candidate and its case, unless there is one. @returns whether it has jobs that have not ended
+  bool add_candidate(const std::vector<double>& values, NextCases& next);
   /// Number of jobs of a case; 0 if its parameters do not fit together.
   [[nodiscard]] std::size_t count_jobs(const nlohmann::ordered_json& one_case);
   void end_study(NextCases& next) const;

@@ -69,24 +69,34 @@ struct Summary {
   std::vector<double> scales;  ///< by which their changes are judged
 };
 
+std::vector<pagmo::pop_size_t> first_front_of(const pagmo::population& population) {
+  if (population.get_f().front().size() == 1) return {population.best_idx()};
+  return std::get<0>(pagmo::fast_non_dominated_sorting(population.get_f())).front();
+}
+
+/// @param values  of an objective, of the first front
+void add_objective(const std::vector<double>& values, Summary& summary) {
+  double least = values.front();
+  double most = least;
+  double sum = 0.0;
+  for (const double value : values) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+    sum += value;
+  }
+  const double scale = std::max(std::abs(least), most - least);
+  summary.values.insert(summary.values.end(), {least, sum / static_cast<double>(values.size())});
+  summary.scales.insert(summary.scales.end(), {scale, scale});
+}
+
 Summary summarise(const pagmo::population& population) {
   const auto& fitness = population.get_f();
-  const auto front = fitness.front().size() == 1
-                         ? std::vector<pagmo::pop_size_t>{population.best_idx()}
-                         : std::get<0>(pagmo::fast_non_dominated_sorting(fitness)).front();
+  const std::vector<pagmo::pop_size_t> front = first_front_of(population);
   Summary summary;
   for (std::size_t k = 0; k < fitness.front().size(); ++k) {
-    double least = fitness[front.front()][k];
-    double most = least;
-    double sum = 0.0;
-    for (const auto member : front) {
-      least = std::min(least, fitness[member][k]);
-      most = std::max(most, fitness[member][k]);
-      sum += fitness[member][k];
-    }
-    const double scale = std::max(std::abs(least), most - least);
-    summary.values.insert(summary.values.end(), {least, sum / static_cast<double>(front.size())});
-    summary.scales.insert(summary.scales.end(), {scale, scale});
+    std::vector<double> values;
+    for (const auto member : front) values.push_back(fitness[member][k]);
+    add_objective(values, summary);
   }
   return summary;
 }
@@ -112,13 +122,8 @@ class PopulationSearch::State {
       Algorithm algorithm = algorithm_;  // an incomplete generation is made again from the same state
       pagmo::population next = population_ ? evolve(algorithm) : make_population();
       if (!generation_.missing.empty()) return generation_.missing;
-      if (population_) ++generations_;
-      converged_ = generation_.evaluated == 0;
-      population_ = std::move(next);
       algorithm_ = std::move(algorithm);
-      history_.push_back(summarise(*population_));
-      if (options_.objectives == 1 && history_.size() > 1) keep_best();
-      converged_ = converged_ || has_converged();
+      end_generation(std::move(next));
     }
     return {};
   }
@@ -136,6 +141,15 @@ class PopulationSearch::State {
         options_.start ? options_.population - 1 : options_.population, options_.seed);
     if (options_.start) made.push_back(*options_.start);
     return made;
+  }
+
+  void end_generation(pagmo::population next) {
+    if (population_) ++generations_;
+    converged_ = generation_.evaluated == 0;
+    population_ = std::move(next);
+    history_.push_back(summarise(*population_));
+    if (options_.objectives == 1 && history_.size() > 1) keep_best();
+    converged_ = converged_ || has_converged();
   }
 
   /// A generation of CMA-ES may be worse than the one before: the best so far counts.
