@@ -19,6 +19,11 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
+std::string describe_time_order(double time_s, double before_s) {
+  return "the time must increase; " + readable_number(time_s) + " s follows " + readable_number(before_s) +
+         " s";
+}
+
 }  // namespace
 
 std::string describe_measurement_name_fault(const std::string& name) {
@@ -55,8 +60,7 @@ void add_time_faults(std::span<const double> time_s,
       faults.push_back(fault_at(k, "the time is too far from or too near to the one before"));
       return;
     }
-    faults.push_back(fault_at(k, "the time must increase; " + readable_number(time_s[k]) + " s follows " +
-                                     readable_number(time_s[k - 1]) + " s"));
+    faults.push_back(fault_at(k, describe_time_order(time_s[k], time_s[k - 1])));
     if (faults.size() >= kMostFileFaults) return;
   }
 }

@@ -13,6 +13,18 @@
 namespace jobs {
 namespace {
 
+/// Column and the channel that it is to be.
+struct AskedColumn {
+  std::string column, channel;
+};
+
+/// @param asked  "COLUMN:CHANNEL", or the name of both
+AskedColumn split_asked(const std::string& asked) {
+  const auto colon = asked.rfind(':');
+  return {.column = asked.substr(0, colon),
+          .channel = colon == std::string::npos ? asked : asked.substr(colon + 1)};
+}
+
 /// Chooses columns; a member function a step.
 class ColumnChooser {
  public:
@@ -83,11 +95,8 @@ class ColumnChooser {
 
   void choose_asked() {
     for (std::size_t k = 0; k < query_.channels.size(); ++k) {
-      const std::string& asked = query_.channels[k];
       const std::string pointer = "/channels/" + std::to_string(k);
-      const auto colon = asked.rfind(':');
-      const std::string column = asked.substr(0, colon);
-      const std::string channel = colon == std::string::npos ? asked : asked.substr(colon + 1);
+      const auto [column, channel] = split_asked(query_.channels[k]);
       const auto index = find(column);
       if (!index) faults_.push_back({pointer, unknown_column(column)});
       else if (*index == choice_.time) faults_.push_back({pointer, quoted_text(column) + " is the time"});

@@ -21,6 +21,17 @@ json channel_json(const MeasuredChannel& channel) {
           {"delay_s", channel.delay_s}, {"low_pass_hz", value_or_null(channel.low_pass_hz)}};
 }
 
+MeasuredChannel channel_of(const json& given) {
+  MeasuredChannel channel{.name = given.at("name"),
+                          .column = given.at("column"),
+                          .sign = given.at("sign"),
+                          .gain = given.at("gain"),
+                          .offset = given.at("offset"),
+                          .delay_s = given.at("delay_s")};
+  if (!given.at("low_pass_hz").is_null()) channel.low_pass_hz = given.at("low_pass_hz").get<double>();
+  return channel;
+}
+
 /// Root mean square of the samples, each with the same weight. Scaled so that squares do not overflow.
 double calc_rms(const std::vector<double>& values) {
   double largest = 0.0;
@@ -77,16 +88,7 @@ json measurement_json(const Measurement& measurement) {
 
 Measurement measurement_of(const json& description) {
   Measurement measurement;
-  for (const json& given : description.at("channels")) {
-    MeasuredChannel channel{.name = given.at("name"),
-                            .column = given.at("column"),
-                            .sign = given.at("sign"),
-                            .gain = given.at("gain"),
-                            .offset = given.at("offset"),
-                            .delay_s = given.at("delay_s")};
-    if (!given.at("low_pass_hz").is_null()) channel.low_pass_hz = given.at("low_pass_hz").get<double>();
-    measurement.channels.push_back(std::move(channel));
-  }
+  for (const json& given : description.at("channels")) measurement.channels.push_back(channel_of(given));
   for (const json& given : description.at("runs")) {
     measurement.runs.emplace_back();
     measurement.runs.back().parameters = given.at("parameters");

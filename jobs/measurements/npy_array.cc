@@ -63,6 +63,14 @@ std::optional<std::size_t> find_length(std::string_view shape) {
   return after == ",)" || after == ", )" ? std::optional(length) : std::nullopt;
 }
 
+/// @throws InvalidRequest if the array has another number of dimensions than one
+std::size_t read_length(std::string_view dictionary, const std::string& name) {
+  const std::string_view shape = value_of(dictionary, "shape");
+  const auto length = find_length(shape);
+  if (!length) refuse_array(name, "has the shape " + quoted_text(shape) + "; it must have one dimension");
+  return *length;
+}
+
 template <typename Number>
 std::vector<double> numbers_in(std::string_view data) {
   std::vector<double> numbers;
@@ -85,12 +93,9 @@ std::vector<double> read_npy(std::string_view file, const std::string& name) {
     refuse_array(name, "has the type " + quoted_text(type) + "; float64 and float32 are read, little-endian");
   if (value_of(parts.dictionary, "fortran_order") != "False")
     refuse_array(name, "is in Fortran order; save it in C order");
-  const auto length = find_length(value_of(parts.dictionary, "shape"));
-  if (!length)
-    refuse_array(name, "has the shape " + quoted_text(value_of(parts.dictionary, "shape")) +
-                           "; it must have one dimension");
+  const std::size_t length = read_length(parts.dictionary, name);
   const std::size_t item = is_double ? sizeof(double) : sizeof(float);
-  if (parts.data.size() % item != 0 || parts.data.size() / item != *length)
+  if (parts.data.size() % item != 0 || parts.data.size() / item != length)
     refuse_array(name, "has another length than its header says");
   return is_double ? numbers_in<double>(parts.data) : numbers_in<float>(parts.data);
 }

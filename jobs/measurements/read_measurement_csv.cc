@@ -122,6 +122,12 @@ class CsvReader {
     if (trimmed_cell(text_).empty() && rest_.find_first_not_of("\r\n") == std::string_view::npos) return;
     if (!split_line(text_, cells_)) return add_line_fault("a quotation mark is not closed");
     if (cells_.size() != names_.size()) return add_count_fault();
+    read_cells();
+    check_value_count(run_.time_s.size() * (choice_.columns.size() + 1));
+    if (faults_.size() >= kMostFileFaults) throw_if_any(std::move(faults_));
+  }
+
+  void read_cells() {
     const std::size_t faults_before = faults_.size();
     const double time = read_cell(choice_.time);
     for (std::size_t c = 0; c < choice_.columns.size(); ++c)
@@ -132,8 +138,6 @@ class CsvReader {
       run_.time_s.push_back(time);
       lines_.push_back(line_);
     }
-    check_value_count(run_.time_s.size() * (choice_.columns.size() + 1));
-    if (faults_.size() >= kMostFileFaults) throw_if_any(std::move(faults_));
   }
 
   double read_cell(std::size_t column) {

@@ -108,16 +108,19 @@ class MeasurementParser {
     if (given.contains("parameters"))
       run.parameters = read_run_parameters(given.at("parameters"), pointer + "/parameters", faults_);
     run.time_s = numbers_of(given, kTimeColumn, pointer);
-    add_time_faults(
-        run.time_s,
-        [&](std::size_t k, const std::string& text) {
-          return Fault{pointer + "/time_s/" + std::to_string(k), text};
-        },
-        {pointer + "/time_s",
-         "must be a list of " + std::to_string(kFewestMeasuredSamples) + " numbers or more"},
-        faults_);
+    check_times(run.time_s, pointer + "/time_s");
     read_values(given, pointer + "/values", run);
     measurement_.runs.push_back(std::move(run));
+  }
+
+  void check_times(const std::vector<double>& time_s, const std::string& pointer) {
+    add_time_faults(
+        time_s,
+        [&](std::size_t k, const std::string& text) {
+          return Fault{pointer + "/" + std::to_string(k), text};
+        },
+        {pointer, "must be a list of " + std::to_string(kFewestMeasuredSamples) + " numbers or more"},
+        faults_);
   }
 
   void read_values(const ordered_json& given, const std::string& pointer, MeasuredRun& run) {
@@ -142,19 +145,22 @@ class MeasurementParser {
                                  const std::string& pointer) {
     const std::string here = pointer + pointer_token(key);
     const auto list = object.find(key);
-    std::vector<double> numbers;
     if (list == object.end() || !list->is_array()) {
       fault(here, "must be a list of numbers");
-      return numbers;
+      return {};
     }
     check_value_count(values_ += list->size());
-    numbers.reserve(list->size());
-    for (const ordered_json& value : *list) {
+    return read_numbers(*list, here);
+  }
+
+  std::vector<double> read_numbers(const ordered_json& list, const std::string& pointer) {
+    std::vector<double> numbers;
+    numbers.reserve(list.size());
+    for (const ordered_json& value : list) {
       numbers.push_back(value.is_number() ? value.get<double>() : 0.0);
-      if (value.is_number()) continue;
-      if (faults_.size() < kMostFileFaults)
-        fault(here + "/" + std::to_string(numbers.size() - 1),
-              "must be a number" + (value.is_null() ? std::string("; ") + kNoGaps : ""));
+      if (value.is_number() || faults_.size() >= kMostFileFaults) continue;
+      fault(pointer + "/" + std::to_string(numbers.size() - 1),
+            "must be a number" + (value.is_null() ? std::string("; ") + kNoGaps : ""));
     }
     return numbers;
   }

@@ -47,42 +47,67 @@ void add_gap_faults(const std::vector<double>& numbers, const std::string& name,
           {"", array_place(name) + ", element " + std::to_string(k) + ": is not finite; " + kNoGaps});
 }
 
-}  // namespace
+/// Reads an archive array by array.
+class NpzReader {
+ public:
+  NpzReader(std::string_view archive, const ColumnQuery& query)
+      : query_(query),
+        entries_(read_zip_directory(archive, kMostArchiveBytes)),
+        names_(array_names(entries_)) {}
 
-Measurement read_measurement_npz(std::string_view archive, const ColumnQuery& query) {
-  const std::vector<ZipEntry> entries = read_zip_directory(archive, kMostArchiveBytes);
-  const std::vector<std::string> names = array_names(entries);
-  check_has_time(names, query);
-  ColumnChoice choice = choose_columns(names, query, [&](std::size_t i) { return array_place(names[i]); });
-  std::vector<Fault> faults;
-  std::size_t values = 0;
-  const auto read = [&](std::size_t array) {
-    std::vector<double> numbers = read_npy(unpack(entries[array]), names[array]);
-    check_value_count(values += numbers.size());
-    add_gap_faults(numbers, names[array], faults);
+  Measurement read() {
+    check_has_time(names_, query_);
+    ColumnChoice choice =
+        choose_columns(names_, query_, [this](std::size_t i) { return array_place(names_[i]); });
+    run_.parameters = choice.parameters;
+    read_time(choice.time);
+    for (const std::size_t column : choice.columns) read_channel(column);
+    throw_if_any(std::move(faults_));
+    return {.name = query_.name, .channels = std::move(choice.channels), .runs = {std::move(run_)}};
+  }
+
+ private:
+  std::vector<double> read_array(std::size_t array) {
+    std::vector<double> numbers = read_npy(unpack(entries_[array]), names_[array]);
+    check_value_count(values_ += numbers.size());
+    add_gap_faults(numbers, names_[array], faults_);
     return numbers;
-  };
-  MeasuredRun run;
-  run.parameters = choice.parameters;
-  run.time_s = read(choice.time);
-  const std::string time = array_place(names[choice.time]);
-  if (faults.empty())
+  }
+
+  void read_time(std::size_t array) {
+    run_.time_s = read_array(array);
+    if (!faults_.empty()) return;
+    const std::string time = array_place(names_[array]);
     add_time_faults(
-        run.time_s,
+        run_.time_s,
         [&](std::size_t k, const std::string& text) {
           return Fault{"", time + ", element " + std::to_string(k) + ": " + text};
         },
-        {"", time + " has " + std::to_string(run.time_s.size()) + " samples; at least " +
+        {"", time + " has " + std::to_string(run_.time_s.size()) + " samples; at least " +
                  std::to_string(kFewestMeasuredSamples) + " are needed"},
-        faults);
-  for (const std::size_t column : choice.columns) {
-    run.columns.push_back(read(column));
-    if (run.columns.back().size() != run.time_s.size())
-      faults.push_back({"", array_place(names[column]) + " has " + std::to_string(run.columns.back().size()) +
-                                " samples, but the time has " + std::to_string(run.time_s.size())});
+        faults_);
   }
-  throw_if_any(std::move(faults));
-  return {.name = query.name, .channels = std::move(choice.channels), .runs = {std::move(run)}};
+
+  void read_channel(std::size_t array) {
+    run_.columns.push_back(read_array(array));
+    if (run_.columns.back().size() != run_.time_s.size())
+      faults_.push_back({"", array_place(names_[array]) + " has " +
+                                 std::to_string(run_.columns.back().size()) +
+                                 " samples, but the time has " + std::to_string(run_.time_s.size())});
+  }
+
+  const ColumnQuery& query_;
+  const std::vector<ZipEntry> entries_;
+  const std::vector<std::string> names_;
+  MeasuredRun run_;
+  std::size_t values_ = 0;  ///< read so far
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+Measurement read_measurement_npz(std::string_view archive, const ColumnQuery& query) {
+  return NpzReader(archive, query).read();
 }
 
 }  // namespace jobs

@@ -44,6 +44,13 @@ std::string_view find_end(std::string_view archive) {
   refuse_archive("its directory is missing");
 }
 
+void check_end_record(std::string_view end) {
+  const std::size_t count = little_endian_at(end, 10, 2);
+  if (little_endian_at(end, 4, 4) != 0 || little_endian_at(end, 8, 2) != count)
+    refuse_archive("it has several disks");
+  if (count > kMostEntries) refuse_archive("it has more than " + std::to_string(kMostEntries) + " arrays");
+}
+
 /// Packed bytes of an entry, which follow its local header.
 std::string_view find_packed(std::string_view archive, std::size_t header_offset, const ZipEntry& entry) {
   const std::string_view header = part(archive, header_offset, kLocalHeaderBytes);
@@ -85,23 +92,30 @@ ZipEntry read_directory_line(std::string_view archive, std::string_view& directo
   return entry;
 }
 
+/// Inflates a stream into its room, to the end.
+/// @param beyond  room for a byte too many  @returns zlib's result; Z_DATA_ERROR if there is such a byte
+int inflate_to_end(z_stream& stream, Bytef* beyond) {
+  int result = inflate(&stream, Z_FINISH);
+  if (result == Z_BUF_ERROR && stream.avail_out == 0) {  // the end of the stream may still be unread
+    stream.next_out = beyond;
+    stream.avail_out = 1;
+    result = inflate(&stream, Z_FINISH);
+    if (stream.avail_out == 0) result = Z_DATA_ERROR;
+  }
+  return result;
+}
+
 /// Inflates a raw stream into room of the size that it must have. False if the stream has another size or is
 /// damaged.
 bool inflate_to(std::string_view packed, std::string& to) {
   z_stream stream{};
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
-  char beyond = 0;  // room for a byte too many; zlib takes no null pointer, either
+  Bytef beyond = 0;  // zlib takes no null pointer
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(to.empty() ? &beyond : to.data());
+  stream.next_out = to.empty() ? &beyond : reinterpret_cast<Bytef*>(to.data());
   stream.avail_out = static_cast<uInt>(to.size());
-  int result = inflate(&stream, Z_FINISH);
-  if (result == Z_BUF_ERROR && stream.avail_out == 0) {  // the end of the stream may still be unread
-    stream.next_out = reinterpret_cast<Bytef*>(&beyond);
-    stream.avail_out = 1;
-    result = inflate(&stream, Z_FINISH);
-    if (stream.avail_out == 0) result = Z_DATA_ERROR;
-  }
+  const int result = inflate_to_end(stream, &beyond);
   const bool whole = result == Z_STREAM_END && stream.avail_in == 0 && stream.total_out == to.size();
   inflateEnd(&stream);
   if (result == Z_MEM_ERROR) throw std::bad_alloc();
@@ -112,14 +126,11 @@ bool inflate_to(std::string_view packed, std::string& to) {
 
 std::vector<ZipEntry> read_zip_directory(std::string_view archive, std::size_t most_bytes) {
   const std::string_view end = find_end(archive);
-  const std::size_t count = little_endian_at(end, 10, 2);
-  if (little_endian_at(end, 4, 4) != 0 || little_endian_at(end, 8, 2) != count)
-    refuse_archive("it has several disks");
-  if (count > kMostEntries) refuse_archive("it has more than " + std::to_string(kMostEntries) + " arrays");
+  check_end_record(end);
   std::string_view directory = part(archive, little_endian_at(end, 16, 4), little_endian_at(end, 12, 4));
   std::vector<ZipEntry> entries;
   std::size_t bytes = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t left = little_endian_at(end, 10, 2); left > 0; --left) {
     entries.push_back(read_directory_line(archive, directory));
     bytes += entries.back().size;
     if (bytes > most_bytes)
