@@ -160,11 +160,16 @@ class Hdf5File final : public TrajectoryFile {
     for (hsize_t from = 0; from < samples; from += kSamplesOfChunk) {
       values_.clear();
       column->append_next(kSamplesOfChunk, values_);
-      const hsize_t count = values_.size();
-      check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &from, nullptr, &count, nullptr));
-      const Hdf5Object block(check(H5Screate_simple(1, &count, nullptr)), H5Sclose);
-      check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, block.id(), space.id(), H5P_DEFAULT, values_.data()));
+      write_values(dataset.id(), space.id(), from);
     }
+  }
+
+  /// Writes values_ into a dataset. @param space  of the dataset  @param from  place of the first value
+  void write_values(hid_t dataset, hid_t space, hsize_t from) const {
+    const hsize_t count = values_.size();
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &from, nullptr, &count, nullptr));
+    const Hdf5Object block(check(H5Screate_simple(1, &count, nullptr)), H5Sclose);
+    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, block.id(), space, H5P_DEFAULT, values_.data()));
   }
 
   const std::scoped_lock<std::mutex> lock_;

@@ -103,6 +103,12 @@ TrajectoryQuery query_of(const TrajectoryQuery& wanted, const StoredBytes& blob)
   return query;
 }
 
+void check_has_jobs(const SweepContents& contents, const std::string& sweep_id) {
+  if (contents.jobs.empty())
+    throw WrongState("no job of sweep " + sweep_id +
+                     " has a trajectory; one with \"keep\": \"metrics\" has none");
+}
+
 void check_room(const std::filesystem::path& file, double bytes) {
   std::error_code unknown;
   const auto space = std::filesystem::space(std::filesystem::absolute(file).parent_path(), unknown);
@@ -119,6 +125,22 @@ std::unique_ptr<TrajectoryFile> create_file(TrajectoryFileFormat format, const s
   return format == TrajectoryFileFormat::kMat ? create_mat_file(file, sweep) : create_hdf5_file(file, sweep);
 }
 
+ExportedSweep make_exported_sweep(const SweepResults& sweep, const std::string& program) {
+  return {.id = sweep.sweep.id,
+          .name = sweep.sweep.name,
+          .program = program,
+          .results = to_columns(result_table(sweep, {}))};
+}
+
+void write_job(const SweepReader& reader, const StoredJob& job, const TrajectoryQuery& query,
+               TrajectoryFile& file) {
+  read_stored(reader, job.id, [&](const StoredBytes& blob) {
+    TrajectoryView view(blob, query_of(query, blob));
+    view.load(blob);
+    file.add(job.name, job.id, view);
+  });
+}
+
 }  // namespace
 
 void throw_unwritten(const std::filesystem::path& file, int system_error) {
@@ -128,26 +150,15 @@ void throw_unwritten(const std::filesystem::path& file, int system_error) {
 bool write_trajectories(const SweepReader& reader, const SweepResults& sweep, const TrajectoryExport& wanted,
                         const std::string& program, const std::filesystem::path& file,
                         const std::function<bool()>& stop) {
-  const auto read = read_contents(reader, sweep, wanted, stop);
-  if (!read) return false;
-  const SweepContents& contents = *read;
-  if (contents.jobs.empty())
-    throw WrongState("no job of sweep " + sweep.sweep.id +
-                     " has a trajectory; one with \"keep\": \"metrics\" has none");
-  check_query(wanted.query, contents.channels);
-  check_room(file, contents.bytes);
-  const auto written = create_file(wanted.format, file,
-                                   {.id = sweep.sweep.id,
-                                    .name = sweep.sweep.name,
-                                    .program = program,
-                                    .results = to_columns(result_table(sweep, {}))});
-  for (const StoredJob& job : contents.jobs) {
+  const auto contents = read_contents(reader, sweep, wanted, stop);
+  if (!contents) return false;
+  check_has_jobs(*contents, sweep.sweep.id);
+  check_query(wanted.query, contents->channels);
+  check_room(file, contents->bytes);
+  const auto written = create_file(wanted.format, file, make_exported_sweep(sweep, program));
+  for (const StoredJob& job : contents->jobs) {
     if (stop()) return false;
-    read_stored(reader, job.id, [&](const StoredBytes& blob) {
-      TrajectoryView view(blob, query_of(wanted.query, blob));
-      view.load(blob);
-      written->add(job.name, job.id, view);
-    });
+    write_job(reader, job, wanted.query, *written);
   }
   written->close();
   return true;
