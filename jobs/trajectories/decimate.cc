@@ -5,6 +5,18 @@
 #include <vector>
 
 namespace jobs {
+namespace {
+
+void remove_others(const std::vector<bool>& kept, std::vector<double>& column) {
+  std::size_t size = 0;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k]) column[size++] = column[k];
+  }
+  column.resize(size);
+}
+
+}  // namespace
+
 void mark_extremes(std::span<const double> values, std::size_t first, std::vector<bool>& kept) {
   const std::size_t end = values.size();
   std::size_t least = end;
@@ -40,13 +52,7 @@ void decimate(std::size_t points, engine::Trajectory& trajectory) {
       mark_extremes(std::span(column).subspan(begin, end - begin), begin, kept);
     if (channels.empty()) kept[begin] = true;  // the time alone
   }
-  for (auto& column : trajectory.columns) {
-    std::size_t size = 0;
-    for (std::size_t k = 0; k < samples; ++k) {
-      if (kept[k]) column[size++] = column[k];
-    }
-    column.resize(size);
-  }
+  for (auto& column : trajectory.columns) remove_others(kept, column);
 }
 
 }  // namespace jobs

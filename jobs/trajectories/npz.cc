@@ -136,18 +136,22 @@ class NpzText final : public TrajectoryText {
       ++channel_;
       return true;
     }
-    if (!column_) begin_column(to);
-    const bool more = read(*column_);
-    to += bytes_of_doubles(values_);
-    if (!more) {
-      column_.reset();
-      ++channel_;
-    }
+    append_values(to);
     offset_ += to.size() - before;
     return true;
   }
 
  private:
+  /// Appends the next values of the channel, behind its head if they are the first.
+  void append_values(std::string& to) {
+    if (!column_) begin_column(to);
+    const bool more = read(*column_);
+    to += bytes_of_doubles(values_);
+    if (more) return;
+    column_.reset();
+    ++channel_;
+  }
+
   /// False after the last values.
   bool read(ColumnCursor& column) {
     constexpr std::size_t kValuesAChunk = 16 * 1024;

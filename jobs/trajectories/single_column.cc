@@ -187,6 +187,23 @@ void pack_constant(double value, std::size_t blocks, std::string& packed) {
   std::memcpy(packed.data() + 1, &first, sizeof first);
 }
 
+unsigned char read_order(std::string_view packed) {
+  const auto order = static_cast<unsigned char>(packed[0]);
+  if (order >= kOrders) throw DamagedTrajectory("a column of the trajectory is packed in an unknown way");
+  return order;
+}
+
+/// Bytes of all blocks together. @param widths  of the blocks
+std::size_t count_bit_bytes(std::string_view widths) {
+  std::size_t bytes = 0;
+  for (const char width : widths) {
+    if (static_cast<unsigned char>(width) >= kWidths)
+      throw DamagedTrajectory("a column of the trajectory has a wrong length");
+    bytes += 2U * static_cast<unsigned char>(width);
+  }
+  return bytes;
+}
+
 bool is_constant(std::span<const double> column) {
   // Each equals the next
   return std::memcmp(column.data(), column.data() + 1, (column.size() - 1) * sizeof(double)) == 0;
@@ -222,20 +239,14 @@ SingleUnpacker::SingleUnpacker(std::string_view packed, std::size_t samples)
   const std::size_t blocks = count_blocks(samples);
   if (samples == 0 || packed.size() < kHeadSize + blocks)
     throw DamagedTrajectory("a column of the trajectory has a wrong length");
-  order_ = static_cast<unsigned char>(packed[0]);
-  if (order_ >= kOrders) throw DamagedTrajectory("a column of the trajectory is packed in an unknown way");
+  order_ = read_order(packed);
   std::uint32_t first = 0;
   std::memcpy(&first, packed.data() + 1, sizeof first);
   values_.fill(first);
   widths_ = packed.substr(kHeadSize, blocks);
   bits_ = packed.substr(kHeadSize + blocks);
-  std::size_t bytes = 0;
-  for (const char width : widths_) {
-    if (static_cast<unsigned char>(width) >= kWidths)
-      throw DamagedTrajectory("a column of the trajectory has a wrong length");
-    bytes += 2U * static_cast<unsigned char>(width);
-  }
-  if (bytes != bits_.size()) throw DamagedTrajectory("a column of the trajectory has a wrong length");
+  if (count_bit_bytes(widths_) != bits_.size())
+    throw DamagedTrajectory("a column of the trajectory has a wrong length");
 }
 
 void SingleUnpacker::unpack_block() {

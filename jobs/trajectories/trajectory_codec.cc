@@ -92,27 +92,64 @@ std::size_t find_original(const engine::Trajectory& trajectory, std::size_t i) {
   return k;
 }
 
-/// Columns one by one. What has been met already (the pose of the slider repeats its position, say) becomes a
+/// The i-th column. What has been met already (the pose of the slider repeats its position, say) becomes a
 /// copy of it; numbers that are the same when rounded are seen by their bytes.
+/// @param before  the columns before it
+EncodedColumn encode_new_column(const engine::Trajectory& trajectory, std::size_t i,
+                                std::span<const EncodedColumn> before, SinglePacker& packer) {
+  const auto copy_of = [](std::size_t original) { return EncodedColumn{Encoding::kCopy, {}, original}; };
+  if (const std::size_t original = find_original(trajectory, i); original < i) return copy_of(original);
+  EncodedColumn block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
+  const auto is_same = [&](const EncodedColumn& other) {
+    return other.encoding == block.encoding && other.bytes == block.bytes;
+  };
+  const auto same = std::ranges::find_if(before, is_same);
+  if (same != before.end()) return copy_of(static_cast<std::size_t>(same - before.begin()));
+  return block;
+}
+
 std::vector<EncodedColumn> encode_columns(const engine::Trajectory& trajectory) {
   SinglePacker packer;
   std::vector<EncodedColumn> blocks;
   blocks.reserve(trajectory.columns.size());
-  const auto copy_of = [](std::size_t original) { return EncodedColumn{Encoding::kCopy, {}, original}; };
-  for (std::size_t i = 0; i < trajectory.columns.size(); ++i) {
-    if (const std::size_t original = find_original(trajectory, i); original < i) {
-      blocks.push_back(copy_of(original));
-      continue;
-    }
-    EncodedColumn block = encode_column(trajectory.channels[i], trajectory.columns[i], packer);
-    const auto is_same = [&](const EncodedColumn& other) {
-      return other.encoding == block.encoding && other.bytes == block.bytes;
-    };
-    const auto same = std::ranges::find_if(blocks, is_same);
-    if (same != blocks.end()) block = copy_of(static_cast<std::size_t>(same - blocks.begin()));
-    blocks.push_back(std::move(block));
-  }
+  for (std::size_t i = 0; i < trajectory.columns.size(); ++i)
+    blocks.push_back(encode_new_column(trajectory, i, blocks, packer));
   return blocks;
+}
+
+/// Room for the frames of columns.
+std::size_t calc_frame_room(const std::vector<EncodedColumn>& blocks) {
+  const auto add_room = [](std::size_t sum, const EncodedColumn& block) {
+    return sum + block.bytes.size() + 32;
+  };
+  return std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, add_room);
+}
+
+void write_channel(ByteWriter& header, const engine::QuantityInfo& channel, Encoding encoding) {
+  header.text(channel.key);
+  header.text(channel.help);
+  header.number(static_cast<std::uint8_t>((channel.integer ? kInteger : 0) |
+                                          (channel.single_precision ? kSinglePrecision : 0)));
+  header.number(static_cast<std::uint8_t>(encoding));
+}
+
+/// Appends the frame of a column; of a copy there is none.
+/// @returns its size; of a copy the number of the channel that it copies
+std::size_t append_block(const EncodedColumn& block, Compressor& compressor, std::string& frames) {
+  if (block.encoding == Encoding::kCopy) return block.copied;
+  const Effort effort = block.encoding == Encoding::kPackedSingle ? Effort::kLittle : Effort::kFull;
+  return compressor.append_frame(block.bytes, effort, frames);
+}
+
+std::string join_blob(const ByteWriter& header, const std::string& frames, Compressor& compressor) {
+  std::string packed_header;
+  compressor.append_frame(header.bytes(), Effort::kFull, packed_header);
+  ByteWriter prefix;
+  prefix.number(kVersion);
+  prefix.number(static_cast<std::uint32_t>(packed_header.size()));
+  std::string bytes = prefix.bytes();
+  bytes.reserve(bytes.size() + packed_header.size() + frames.size());
+  return bytes.append(packed_header).append(frames);
 }
 
 /// Place of a zstd frame in a blob.
@@ -146,6 +183,20 @@ class FrameSpace {
   std::size_t next_, end_;
 };
 
+/// Finds a channel's frame.
+/// @param number  size of the frame; of a copy the number of its original  @param before  read_entry()'s
+void place_entry(StoredChannel& entry, std::uint32_t number, FrameSpace& frames,
+                 std::span<const StoredChannel> before) {
+  if (entry.encoding != Encoding::kCopy) {
+    entry.frame = frames.take(number);
+  } else if (number < before.size()) {
+    entry.encoding = before[number].encoding;
+    entry.frame = before[number].frame;
+  } else {
+    throw DamagedTrajectory("the trajectory has a copy of a channel that it does not have");
+  }
+}
+
 /// @param before  the channels that a copy may be of
 StoredChannel read_entry(ByteReader& header, FrameSpace& frames, std::span<const StoredChannel> before) {
   StoredChannel entry;
@@ -158,15 +209,7 @@ StoredChannel read_entry(ByteReader& header, FrameSpace& frames, std::span<const
   if (encoding > static_cast<std::uint8_t>(Encoding::kCopy))
     throw DamagedTrajectory("the trajectory has a block of an unknown kind");
   entry.encoding = static_cast<Encoding>(encoding);
-  const auto number = header.number<std::uint32_t>();
-  if (entry.encoding != Encoding::kCopy) {
-    entry.frame = frames.take(number);
-  } else if (number < before.size()) {
-    entry.encoding = before[number].encoding;
-    entry.frame = before[number].frame;
-  } else {
-    throw DamagedTrajectory("the trajectory has a copy of a channel that it does not have");
-  }
+  place_entry(entry, header.number<std::uint32_t>(), frames, before);
   return entry;
 }
 
@@ -288,6 +331,27 @@ std::size_t largest_size(Encoding encoding, std::size_t samples) {
   return sizeof(UniformTime);
 }
 
+/// Frame of one column or of several that are the same, and the column's place among all.
+struct LoadedFrame {
+  std::size_t size = 0, place = 0, decompressed = 0;
+};
+
+/// Takes columns out of their frames. @param frames  by their offset  @param size  of all columns together
+std::shared_ptr<LargeBuffer> decompress_frames(const StoredBytes& blob,
+                                               const std::map<std::size_t, LoadedFrame>& frames,
+                                               std::size_t size) {
+  std::size_t largest = 0;
+  for (const auto& [offset, frame] : frames) largest = std::max(largest, frame.size);
+  auto columns = std::make_shared<LargeBuffer>(size);
+  LargeBuffer packed(largest);
+  for (const auto& [offset, frame] : frames) {
+    const auto bytes = packed.bytes().first(frame.size);
+    blob.read_to(offset, bytes);
+    decompress_to(std::as_bytes(bytes), columns->bytes().subspan(frame.place, frame.decompressed));
+  }
+  return columns;
+}
+
 }  // namespace
 
 void check_is_table(const engine::Trajectory& trajectory) {
@@ -316,30 +380,12 @@ std::string encode_trajectory(const engine::Trajectory& trajectory) {
   header.number(static_cast<std::uint32_t>(trajectory.channels.size()));
   const std::vector<EncodedColumn> blocks = encode_columns(trajectory);
   std::string frames;
-  const auto add_room = [](std::size_t sum, const EncodedColumn& block) {
-    return sum + block.bytes.size() + 32;
-  };
-  frames.reserve(std::accumulate(blocks.begin(), blocks.end(), std::size_t{0}, add_room));
+  frames.reserve(calc_frame_room(blocks));
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const engine::QuantityInfo& channel = trajectory.channels[i];
-    const Effort effort = blocks[i].encoding == Encoding::kPackedSingle ? Effort::kLittle : Effort::kFull;
-    header.text(channel.key);
-    header.text(channel.help);
-    header.number(static_cast<std::uint8_t>((channel.integer ? kInteger : 0) |
-                                            (channel.single_precision ? kSinglePrecision : 0)));
-    header.number(static_cast<std::uint8_t>(blocks[i].encoding));
-    header.number(static_cast<std::uint32_t>(blocks[i].encoding == Encoding::kCopy
-                                                 ? blocks[i].copied
-                                                 : compressor.append_frame(blocks[i].bytes, effort, frames)));
+    write_channel(header, trajectory.channels[i], blocks[i].encoding);
+    header.number(static_cast<std::uint32_t>(append_block(blocks[i], compressor, frames)));
   }
-  std::string packed_header;
-  compressor.append_frame(header.bytes(), Effort::kFull, packed_header);
-  ByteWriter blob;
-  blob.number(kVersion);
-  blob.number(static_cast<std::uint32_t>(packed_header.size()));
-  std::string bytes = blob.bytes();
-  bytes.reserve(bytes.size() + packed_header.size() + frames.size());
-  return bytes.append(packed_header).append(frames);
+  return join_blob(header, frames, compressor);
 }
 
 engine::Trajectory decode_trajectory(std::span<const std::byte> blob, std::span<const std::string> keys) {
@@ -405,35 +451,27 @@ std::string PackedTrajectory::checksums(const StoredBytes& blob) const {
   return sums;
 }
 
+std::size_t PackedTrajectory::find_column_size(const StoredBytes& blob, const Channel& channel) const {
+  const std::string head = blob.read(channel.offset, std::min(channel.size, kLargestFrameHead));
+  const auto encoding = static_cast<Encoding>(channel.encoding);
+  const std::size_t most = largest_size(encoding, samples_);
+  const std::size_t size = decompressed_size(std::as_bytes(std::span(head)), most);
+  if (encoding != Encoding::kPackedSingle && size != most)
+    throw DamagedTrajectory("a column of the trajectory has a wrong length");
+  return size;
+}
+
 void PackedTrajectory::load(const StoredBytes& blob) {
-  struct Frame {
-    std::size_t size = 0, place = 0, decompressed = 0;
-  };
-  std::map<std::size_t, Frame> frames;  // by their offset
-  std::size_t total = 0, largest = 0;
+  std::map<std::size_t, LoadedFrame> frames;  // by their offset
+  std::size_t total = 0;
   for (const Channel& channel : channels_) {
     const auto [frame, is_new] =
-        frames.try_emplace(channel.offset, Frame{.size = channel.size, .place = total});
-    if (!is_new) continue;
-    const std::string head = blob.read(channel.offset, std::min(channel.size, kLargestFrameHead));
-    const auto encoding = static_cast<Encoding>(channel.encoding);
-    const std::size_t size =
-        decompressed_size(std::as_bytes(std::span(head)), largest_size(encoding, samples_));
-    if (encoding != Encoding::kPackedSingle && size != largest_size(encoding, samples_))
-      throw DamagedTrajectory("a column of the trajectory has a wrong length");
-    frame->second.decompressed = size;
-    total += size;
-    largest = std::max(largest, channel.size);
+        frames.try_emplace(channel.offset, LoadedFrame{.size = channel.size, .place = total});
+    if (is_new) total += frame->second.decompressed = find_column_size(blob, channel);
   }
-  const auto columns = std::make_shared<LargeBuffer>(total);
-  LargeBuffer packed(largest);
-  for (const auto& [offset, frame] : frames) {
-    const auto bytes = packed.bytes().first(frame.size);
-    blob.read_to(offset, bytes);
-    decompress_to(std::as_bytes(bytes), columns->bytes().subspan(frame.place, frame.decompressed));
-  }
+  const auto columns = decompress_frames(blob, frames, total);
   for (Channel& channel : channels_) {
-    const Frame& frame = frames.at(channel.offset);
+    const LoadedFrame& frame = frames.at(channel.offset);
     const auto column = columns->bytes().subspan(frame.place, frame.decompressed);
     channel.column = {column.data(), column.size()};
   }

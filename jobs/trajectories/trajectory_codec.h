@@ -98,6 +98,9 @@ class PackedTrajectory {
     std::string_view column{};
   };
 
+  /// Size of a channel's column that has been taken out of its frame.
+  [[nodiscard]] std::size_t find_column_size(const StoredBytes& blob, const Channel& channel) const;
+
   std::size_t samples_ = 0;
   std::string header_;  ///< packed
   std::vector<Channel> channels_;

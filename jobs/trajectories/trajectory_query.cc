@@ -25,6 +25,16 @@ std::vector<std::string> wanted_channels(const std::vector<std::string>& asked) 
 
 namespace {
 
+void check_channel_names(const std::vector<std::string>& channels,
+                         const std::vector<std::string_view>& known, std::vector<Fault>& faults) {
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (std::ranges::find(known, channels[i]) != known.end()) continue;
+    faults.push_back({"/channels/" + std::to_string(i),
+                      "\"" + channels[i] + "\": " +
+                          describe_unknown_key(channels[i], known, "GET /v1/jobs/{id}/trajectory")});
+  }
+}
+
 /// @param wanted  how many channels there will be, the time among them
 void check_points(std::size_t points, std::size_t wanted, std::vector<Fault>& faults) {
   const std::size_t channels = wanted == 0 ? 0 : wanted - 1;
@@ -50,12 +60,7 @@ void check_query(const TrajectoryQuery& query, const std::vector<engine::Quantit
   std::vector<std::string_view> known;
   for (const auto& channel : channels) known.push_back(channel.key);
   std::vector<Fault> faults;
-  for (std::size_t i = 0; i < query.channels.size(); ++i) {
-    if (std::ranges::find(known, query.channels[i]) != known.end()) continue;
-    faults.push_back({"/channels/" + std::to_string(i),
-                      "\"" + query.channels[i] + "\": " +
-                          describe_unknown_key(query.channels[i], known, "GET /v1/jobs/{id}/trajectory")});
-  }
+  check_channel_names(query.channels, known, faults);
   if (query.from && std::isnan(*query.from)) faults.push_back({"/from", "must be a number"});
   if (query.to && std::isnan(*query.to)) faults.push_back({"/to", "must be a number"});
   if (query.from && query.to && *query.from > *query.to)

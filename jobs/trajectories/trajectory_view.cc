@@ -109,19 +109,21 @@ void TrajectoryView::thin_out(std::size_t points) {
   kept_.assign(samples_, false);
   kept_.front() = true;
   kept_.back() = true;
-  const std::vector<bool> all;
   for (const Stretch& stretch : stretches_of(samples_, channels_.size() - 1, points))
     if (channels_.size() == 1) kept_[stretch.begin] = true;  // the time alone
-  for (std::size_t channel = 1; channel < channels_.size(); ++channel) {
-    PartCursor column(packed_.read_column(channel), begin_, end_, all);
-    std::vector<double> values;
-    for (const Stretch& stretch : stretches_of(samples_, channels_.size() - 1, points)) {
-      values.clear();
-      column.append_next(stretch.end - stretch.begin, values);
-      mark_extremes(values, stretch.begin, kept_);
-    }
-  }
+  for (std::size_t channel = 1; channel < channels_.size(); ++channel) keep_extremes(channel, points);
   samples_ = static_cast<std::size_t>(std::ranges::count(kept_, true));
+}
+
+void TrajectoryView::keep_extremes(std::size_t channel, std::size_t points) {
+  const std::vector<bool> all;
+  PartCursor column(packed_.read_column(channel), begin_, end_, all);
+  std::vector<double> values;
+  for (const Stretch& stretch : stretches_of(samples_, channels_.size() - 1, points)) {
+    values.clear();
+    column.append_next(stretch.end - stretch.begin, values);
+    mark_extremes(values, stretch.begin, kept_);
+  }
 }
 
 std::unique_ptr<ColumnCursor> TrajectoryView::read_column(std::size_t channel) const {

@@ -36,6 +36,7 @@ class TrajectoryView {
  private:
   void cut_times();
   void thin_out(std::size_t points);
+  void keep_extremes(std::size_t channel, std::size_t points);
 
   TrajectoryQuery query_;
   PackedTrajectory packed_;
