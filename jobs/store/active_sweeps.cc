@@ -2,6 +2,7 @@
 #include "jobs/store/active_sweeps.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,31 +45,37 @@ void read_running_costs(const SQLite::Database& database, std::int64_t sweep, co
   }
 }
 
+/// SQL of the columns that cost_of_kind() reads, behind the kind. @param sweep  as read_costs() has it
+std::string cost_query(std::int64_t sweep, const std::string& time) {
+  return "SELECT kind, sum(state = 'queued'), total(t) FILTER (WHERE state = 'queued'), "
+         "total(t * t) FILTER (WHERE state = 'queued'), "
+         "coalesce(max(t) FILTER (WHERE state = 'queued'), 0.0), "
+         "count(cost), total(t) FILTER (WHERE cost IS NOT NULL), total(cost), total(cost / t), "
+         "total(cost * cost / (t * t)) FROM (SELECT j.kind AS kind, j.state AS state, " +
+         time +
+         " AS t, r.wall_time_s AS cost FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
+         "WHERE j.sweep IS ?" +
+         (sweep == kSingleJobs ? " AND j.state = 'queued'" : "") + ") GROUP BY kind";
+}
+
+CostOfKind cost_of_kind(SQLite::Statement& found) {
+  return {.queued = found.getColumn(1).getInt64(),
+          .queued_s = found.getColumn(2).getDouble(),
+          .queued_squares_s2 = found.getColumn(3).getDouble(),
+          .longest_queued_s = found.getColumn(4).getDouble(),
+          .computed = found.getColumn(5).getInt64(),
+          .computed_s = found.getColumn(6).getDouble(),
+          .wall_time_s = found.getColumn(7).getDouble(),
+          .rates = found.getColumn(8).getDouble(),
+          .rate_squares = found.getColumn(9).getDouble()};
+}
+
 /// @param sweep  kSingleJobs: those that wait or run; of these, the cost of what has ended is not looked at
 Costs read_costs(const SQLite::Database& database, std::int64_t sweep, const std::string& time) {
   Costs costs;
-  SQLite::Statement cost(
-      database,
-      "SELECT kind, sum(state = 'queued'), total(t) FILTER (WHERE state = 'queued'), "
-      "total(t * t) FILTER (WHERE state = 'queued'), coalesce(max(t) FILTER (WHERE state = 'queued'), 0.0), "
-      "count(cost), total(t) FILTER (WHERE cost IS NOT NULL), total(cost), total(cost / t), "
-      "total(cost * cost / (t * t)) FROM (SELECT j.kind AS kind, j.state AS state, " +
-          time +
-          " AS t, r.wall_time_s AS cost FROM jobs j LEFT JOIN results r ON r.seq = j.result AND j.reused = 0 "
-          "WHERE j.sweep IS ?" +
-          (sweep == kSingleJobs ? " AND j.state = 'queued'" : "") + ") GROUP BY kind");
-  if (sweep != kSingleJobs) cost.bind(1, sweep);
-  while (cost.executeStep()) {
-    costs[cost.getColumn(0).getString()] = {.queued = cost.getColumn(1).getInt64(),
-                                            .queued_s = cost.getColumn(2).getDouble(),
-                                            .queued_squares_s2 = cost.getColumn(3).getDouble(),
-                                            .longest_queued_s = cost.getColumn(4).getDouble(),
-                                            .computed = cost.getColumn(5).getInt64(),
-                                            .computed_s = cost.getColumn(6).getDouble(),
-                                            .wall_time_s = cost.getColumn(7).getDouble(),
-                                            .rates = cost.getColumn(8).getDouble(),
-                                            .rate_squares = cost.getColumn(9).getDouble()};
-  }
+  SQLite::Statement list(database, cost_query(sweep, time));
+  if (sweep != kSingleJobs) list.bind(1, sweep);
+  while (list.executeStep()) costs[list.getColumn(0).getString()] = cost_of_kind(list);
   read_running_costs(database, sweep, time, costs);
   return costs;
 }
@@ -100,6 +107,14 @@ struct ListedSweep {
   double weight = 1.0;
 };
 
+ListedSweep listed_sweep(SQLite::Statement& found) {
+  return {.seq = found.getColumn(0).getInt64(),
+          .swept = found.getColumn(1).getString(),
+          .priority = found.getColumn(2).getInt64(),
+          .executor = found.getColumn(3).getString(),
+          .runs = found.getColumn(4).getInt() != 0};
+}
+
 /// In strata: those with running jobs first, then by priority.
 std::vector<ListedSweep> list_active_sweeps(const SQLite::Database& database) {
   SQLite::Statement list(
@@ -111,11 +126,7 @@ std::vector<ListedSweep> list_active_sweeps(const SQLite::Database& database) {
       "UNION ALL SELECT sweep, 1 FROM jobs WHERE state = 'running') GROUP BY 1) a "
       "LEFT JOIN sweeps s ON s.seq = a.seq ORDER BY a.runs DESC, priority DESC, a.seq");
   std::vector<ListedSweep> sweeps;
-  while (list.executeStep()) {
-    sweeps.push_back({.seq = list.getColumn(0).getInt64(), .swept = list.getColumn(1).getString(),
-                      .priority = list.getColumn(2).getInt64(), .executor = list.getColumn(3).getString(),
-                      .runs = list.getColumn(4).getInt() != 0});
-  }
+  while (list.executeStep()) sweeps.push_back(listed_sweep(list));
   return sweeps;
 }
 
@@ -129,7 +140,16 @@ std::size_t count_strata(const std::vector<ListedSweep>& sweeps) {
   return strata;
 }
 
-/// Stratified sample: of each stratum sweeps at even distances, which stand for all of it.
+/// Adds sweeps at even distances, which stand for all of a stratum. @param most  sweeps that are added
+void add_stratum(std::span<const ListedSweep> stratum, std::size_t most, std::vector<ListedSweep>& sample) {
+  const std::size_t taken = std::min(stratum.size(), most);
+  for (std::size_t k = 0; k < taken; ++k) {
+    sample.push_back(stratum[k * stratum.size() / taken]);
+    sample.back().weight = static_cast<double>(stratum.size()) / static_cast<double>(taken);
+  }
+}
+
+/// Stratified sample of the sweeps.
 std::vector<ListedSweep> sample_of(const std::vector<ListedSweep>& sweeps) {
   if (sweeps.size() <= kMostActiveSweeps) return sweeps;
   const std::size_t most = std::max<std::size_t>(1, kMostActiveSweeps / count_strata(sweeps));
@@ -138,12 +158,7 @@ std::vector<ListedSweep> sample_of(const std::vector<ListedSweep>& sweeps) {
     const auto end = std::find_if(first, sweeps.end(), [&](const ListedSweep& sweep) {
       return sweep.runs != first->runs || sweep.priority != first->priority;
     });
-    const auto size = static_cast<std::size_t>(end - first);
-    const std::size_t taken = std::min(size, most);
-    for (std::size_t k = 0; k < taken; ++k) {
-      sample.push_back(first[static_cast<std::ptrdiff_t>(k * size / taken)]);
-      sample.back().weight = static_cast<double>(size) / static_cast<double>(taken);
-    }
+    add_stratum({first, end}, most, sample);
     first = end;
   }
   return sample;
@@ -165,18 +180,21 @@ std::map<std::string, double> read_cost_rates(const SQLite::Database& database) 
 
 namespace {
 
+RivalSweep read_rival(const SQLite::Database& database, const ListedSweep& sweep) {
+  const bool single = sweep.seq == kSingleJobs;
+  const std::string time = single ? kOwnTime : simulated_time(sweep.swept);
+  return {.priority = sweep.priority,
+          .executor = sweep.executor,
+          .unit_s = single ? 1.0 : read_unit(database, sweep.seq, time),
+          .costs = read_costs(database, sweep.seq, time),
+          .weight = sweep.weight};
+}
+
 ActiveSweepSample read_sample(const SQLite::Database& database, const std::vector<ListedSweep>& all) {
   ActiveSweepSample read;
   bool is_incomplete = all.size() > kMostActiveSweeps;  // a sweep that is not in the sample may have none
   for (const ListedSweep& sweep : sample_of(all)) {
-    const bool single = sweep.seq == kSingleJobs;
-    const std::string time = single ? kOwnTime : simulated_time(sweep.swept);
-    const auto added = read.sweeps.emplace(
-        sweep.seq, RivalSweep{.priority = sweep.priority,
-                              .executor = sweep.executor,
-                              .unit_s = single ? 1.0 : read_unit(database, sweep.seq, time),
-                              .costs = read_costs(database, sweep.seq, time),
-                              .weight = sweep.weight});
+    const auto added = read.sweeps.emplace(sweep.seq, read_rival(database, sweep));
     is_incomplete = is_incomplete || misses_rate(added.first->second.costs);
   }
   if (is_incomplete) read.usual_rates = read_cost_rates(database);

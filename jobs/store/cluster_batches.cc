@@ -21,6 +21,12 @@ struct Candidate {
   bool reuse = true;
 };
 
+Candidate read_candidate(const Statements::Use& found) {
+  return {.seq = found->getColumn(0).getInt64(),
+          .content = found->getColumn(1).getInt64(),
+          .reuse = found->getColumn(2).getInt() != 0};
+}
+
 /// The first queued jobs of a sweep that need not wait for others of the same content, nor for each other.
 std::vector<Candidate> find_candidates(Statements& statements, std::int64_t sweep, std::size_t most) {
   static const std::string query = std::string("SELECT j.seq, j.content, j.reuse FROM jobs j "
@@ -33,8 +39,7 @@ std::vector<Candidate> find_candidates(Statements& statements, std::int64_t swee
   std::vector<Candidate> candidates;
   std::set<std::int64_t> contents;
   while (list->executeStep()) {
-    const Candidate next{.seq = list->getColumn(0).getInt64(), .content = list->getColumn(1).getInt64(),
-                         .reuse = list->getColumn(2).getInt() != 0};
+    const Candidate next = read_candidate(list);
     if (contents.insert(next.content).second || !next.reuse) candidates.push_back(next);
   }
   return candidates;
@@ -65,6 +70,16 @@ void set_batch_index(Statements& statements, std::int64_t job, std::int64_t batc
   take->bind(2, static_cast<std::int64_t>(batch_index));
   take->bind(3, job);
   take->exec();
+}
+
+/// Makes a batch of jobs of one sweep.
+BatchRow make_batch(StoreCore& core, Statements& statements, std::int64_t sweep,
+                    const std::vector<Candidate>& jobs) {
+  const std::int64_t now_ms = now_unix_ms();
+  BatchRow batch = insert_batch(statements, core.ids.make(kBatchPrefix, now_ms),
+                                find_sweep_id(statements, sweep), now_ms);
+  for (std::size_t k = 0; k < jobs.size(); ++k) set_batch_index(statements, jobs[k].seq, batch.seq, k);
+  return batch;
 }
 
 /// A job that still has its place, and whose content is of the engine that has computed it.
@@ -98,6 +113,48 @@ void end_batch_job(Statements& statements, std::int64_t job, JobState state, std
   end->exec();
 }
 
+/// Delivery of results of a batch.
+struct BatchDelivery {
+  std::int64_t batch = 0;
+  const Provenance& provenance;
+  std::int64_t now_ms = 0;
+  std::int64_t change = 0;  ///< of the jobs that end with it
+};
+
+/// Stores the result of a job. False if it is not open any more, or its content is of another engine.
+bool record_result(Statements& statements, const BatchDelivery& delivery, const BatchRecord& each) {
+  const auto& [batch, provenance, now_ms, change] = delivery;
+  const auto found = find_batch_job(statements, batch, each.batch_index, provenance.engine);
+  if (!found) return false;
+  const bool succeeded = each.record->end == RunRecord::End::kSucceeded;
+  const std::string metrics = succeeded ? each.record->metrics.dump() : "";
+  const std::int64_t result = insert_result(statements, found->content, *each.record, metrics, provenance);
+  if (!each.packed_trajectory->empty()) insert_trajectory(statements, result, *each.packed_trajectory);
+  end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result, now_ms,
+                change);
+  if (succeeded) complete_duplicates(statements, found->content, result, now_ms, change);
+  return true;
+}
+
+void begin_batch_job(Statements& statements, std::int64_t batch, std::uint32_t batch_index) {
+  const auto begin = statements.use(
+      "UPDATE jobs SET state = 'running', attempt = attempt + 1, started_ms = max(?, created_ms) "
+      "WHERE batch = ? AND place = ? AND state = 'queued'");
+  begin->bind(1, now_unix_ms());
+  begin->bind(2, batch);
+  begin->bind(3, static_cast<std::int64_t>(batch_index));
+  begin->exec();
+}
+
+void put_batch_job_back(Statements& statements, std::int64_t batch, std::uint32_t batch_index) {
+  const auto wait = statements.use(
+      "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE batch = ? AND place = ? AND state = "
+      "'running'");
+  wait->bind(1, batch);
+  wait->bind(2, static_cast<std::int64_t>(batch_index));
+  wait->exec();
+}
+
 }  // namespace
 
 void release_batches_of_other_engines(SQLite::Database& database) {
@@ -116,11 +173,7 @@ std::optional<BatchRow> ClusterBatches::claim(const ExecutorFilter& filter, std:
              order_of_sweeps(statements, filter, core_.served)) {
           const auto candidates = find_candidates(statements, sweep, most_jobs);
           if (candidates.empty()) continue;
-          const std::int64_t now_ms = now_unix_ms();
-          const BatchRow batch = insert_batch(statements, core_.ids.make(kBatchPrefix, now_ms),
-                                              find_sweep_id(statements, sweep), now_ms);
-          for (std::size_t k = 0; k < candidates.size(); ++k)
-            set_batch_index(statements, candidates[k].seq, batch.seq, k);
+          const BatchRow batch = make_batch(core_, statements, sweep, candidates);
           core_.served[sweep] = ++core_.claims;
           return batch;
         }
@@ -170,22 +223,10 @@ std::vector<BatchJob> ClusterBatches::find_open_jobs(std::int64_t batch) const {
 std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provenance,
                                    const std::vector<BatchRecord>& records) {
   return core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
-    const std::int64_t now_ms = now_unix_ms();
+    const BatchDelivery delivery{
+        .batch = batch, .provenance = provenance, .now_ms = now_unix_ms(), .change = ++core_.changes};
     std::size_t stored = 0;
-    ++core_.changes;
-    for (const BatchRecord& each : records) {
-      const auto found = find_batch_job(statements, batch, each.batch_index, provenance.engine);
-      if (!found) continue;
-      const bool succeeded = each.record->end == RunRecord::End::kSucceeded;
-      const std::string metrics = succeeded ? each.record->metrics.dump() : "";
-      const std::int64_t result =
-          insert_result(statements, found->content, *each.record, metrics, provenance);
-      if (!each.packed_trajectory->empty()) insert_trajectory(statements, result, *each.packed_trajectory);
-      end_batch_job(statements, found->seq, succeeded ? JobState::kSucceeded : JobState::kFailed, result,
-                    now_ms, core_.changes);
-      if (succeeded) complete_duplicates(statements, found->content, result, now_ms, core_.changes);
-      ++stored;
-    }
+    for (const BatchRecord& each : records) stored += record_result(statements, delivery, each) ? 1 : 0;
     core_.check_quota(*statements.use(kUsedBytesQuery).operator->());
     return stored;
   });
@@ -194,23 +235,8 @@ std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provena
 void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running,
                                  const std::vector<std::uint32_t>& waiting) {
   core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    for (const std::uint32_t batch_index : running) {
-      const auto begin = statements.use(
-          "UPDATE jobs SET state = 'running', attempt = attempt + 1, started_ms = max(?, created_ms) "
-          "WHERE batch = ? AND place = ? AND state = 'queued'");
-      begin->bind(1, now_unix_ms());
-      begin->bind(2, batch);
-      begin->bind(3, static_cast<std::int64_t>(batch_index));
-      begin->exec();
-    }
-    for (const std::uint32_t batch_index : waiting) {
-      const auto wait = statements.use(
-          "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE batch = ? AND place = ? AND state = "
-          "'running'");
-      wait->bind(1, batch);
-      wait->bind(2, static_cast<std::int64_t>(batch_index));
-      wait->exec();
-    }
+    for (const std::uint32_t batch_index : running) begin_batch_job(statements, batch, batch_index);
+    for (const std::uint32_t batch_index : waiting) put_batch_job_back(statements, batch, batch_index);
   });
 }
 

@@ -35,6 +35,22 @@ bool has_queued_jobs(Statements& statements, std::int64_t sweep) {
   return first->executeStep();
 }
 
+void begin_job(Statements& statements, const ClaimedJob& job) {
+  const auto take = statements.use(
+      "UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
+  take->bind(1, job.attempt);
+  take->bind(2, now_unix_ms());
+  take->bind(3, job.seq);
+  take->exec();
+}
+
+/// Moves a sweep that has been served behind the others of its priority. @param claim  its number
+void move_behind(std::set<SweepTurn>& turns, std::set<SweepTurn>::iterator turn, std::uint64_t claim) {
+  auto served = turns.extract(turn);
+  served.value().served = claim;
+  turns.insert(std::move(served));
+}
+
 /// The content of a job; empty if the job no longer is what the worker took.
 std::optional<std::int64_t> content_if_current(Statements& statements, const ClaimedJob& job) {
   const auto find = statements.use(
@@ -101,24 +117,15 @@ std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const Executor
                                           const OnClaim& on_claim) {
   std::set<SweepTurn>& turns = find_turns(statements, filter);
   for (auto turn = turns.begin(); turn != turns.end();) {
-    auto job = find_claimable(statements, turn->sweep);
-    if (!job) {
-      // Jobs that wait for the result of another job keep their turn.
-      turn = has_queued_jobs(statements, turn->sweep) ? std::next(turn) : turns.erase(turn);
-      continue;
+    if (auto job = find_claimable(statements, turn->sweep)) {
+      begin_job(statements, *job);
+      core_.served[turn->sweep] = ++core_.claims;
+      move_behind(turns, turn, core_.claims);
+      if (on_claim) on_claim(*job);
+      return job;
     }
-    const auto take = statements.use(
-        "UPDATE jobs SET state = 'running', attempt = ?, started_ms = max(?, created_ms) WHERE seq = ?");
-    take->bind(1, job->attempt);
-    take->bind(2, now_unix_ms());
-    take->bind(3, job->seq);
-    take->exec();
-    core_.served[turn->sweep] = ++core_.claims;
-    auto served = turns.extract(turn);
-    served.value().served = core_.claims;
-    turns.insert(std::move(served));
-    if (on_claim) on_claim(*job);
-    return job;
+    // Jobs that wait for the result of another job keep their turn.
+    turn = has_queued_jobs(statements, turn->sweep) ? std::next(turn) : turns.erase(turn);
   }
   return std::nullopt;
 }

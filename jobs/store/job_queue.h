@@ -96,6 +96,7 @@ class JobQueue {
   /// Scheduling order of an executor, found again if something may have queued jobs since the last claim.
   [[nodiscard]] std::set<SweepTurn>& find_turns(Statements& statements, const ExecutorFilter& filter);
   bool record(Statements& statements, const ClaimedJob& job, const Outcome& outcome);
+  DeleteOutcome delete_sweep(SQLite::Database& database, const std::string& id, const std::string& study);
   /// Deletes the last jobs of a sweep that may be deleted. Whether it has more.
   bool delete_some_jobs(const std::string& id, const std::string& study);
   /// Adds jobs to a sweep. False if there is none.

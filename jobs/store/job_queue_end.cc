@@ -75,6 +75,13 @@ void delete_unused(SQLite::Database& database, const std::vector<std::int64_t>& 
                contents);
 }
 
+/// Deletes a job of no sweep. @param content  its number
+void delete_single_job(SQLite::Database& database, std::int64_t job, std::int64_t content) {
+  const auto results = find_numbers(database, "SELECT seq FROM results WHERE content = ?", content);
+  run_for_each(database, "DELETE FROM jobs WHERE seq = ?", {job});
+  delete_unused(database, {content}, results);
+}
+
 /// @param jobs  SQL of the numbers of the jobs, with one parameter, their sweep
 void delete_jobs(SQLite::Database& database, const std::string& jobs, std::int64_t sweep) {
   const auto numbers = find_numbers(database, jobs.c_str(), sweep);
@@ -97,6 +104,56 @@ DeleteOutcome find_delete_outcome(SQLite::Database& database, std::int64_t sweep
                    "state IN ('queued', 'running') AND sweep = (SELECT seq FROM sweeps WHERE id = ?)", id))
     return DeleteOutcome::kNotEnded;
   return DeleteOutcome::kDone;
+}
+
+/// Queues the failed and cancelled jobs of a sweep again. @returns how many
+int queue_again(SQLite::Database& database, std::int64_t sweep) {
+  // The number of the former end is kept below 0: there it is none of an end, but never given again.
+  SQLite::Statement queue(database,
+                          "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = -change, "
+                          "started_ms = NULL, ended_ms = NULL "
+                          "WHERE sweep = ? AND state IN ('failed', 'cancelled')");
+  queue.bind(1, sweep);
+  return queue.exec();
+}
+
+/// Ends the queued jobs of a sweep whose result is known.
+void settle_known_jobs(SQLite::Database& database, std::int64_t sweep, std::int64_t change) {
+  SQLite::Statement settle(database,
+                           "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = "
+                           "max(?3, created_ms), ended_ms = max(?3, created_ms), "
+                           "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND "
+                           "r.error_reason IS NULL) "
+                           "WHERE sweep = ?1 AND state = 'queued' AND reuse = 1 "
+                           "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND "
+                           "r.error_reason IS NULL)");
+  settle.bind(1, sweep);
+  settle.bind(2, change);
+  settle.bind(3, now_unix_ms());
+  settle.exec();
+}
+
+bool has_open_jobs(SQLite::Database& database, std::int64_t sweep) {
+  SQLite::Statement left(database,
+                         "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
+  left.bind(1, sweep);
+  return left.executeStep();
+}
+
+void change_executor(SQLite::Database& database, std::int64_t sweep, const std::string& executor) {
+  SQLite::Statement move(database, "UPDATE sweeps SET executor = ? WHERE seq = ?");
+  move.bind(1, executor);
+  move.bind(2, sweep);
+  move.exec();
+}
+
+void release_queued_jobs(SQLite::Database& database, std::int64_t sweep) {
+  SQLite::Statement release(
+      database,
+      "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT "
+      "NULL");
+  release.bind(1, sweep);
+  release.exec();
 }
 
 }  // namespace
@@ -129,26 +186,9 @@ bool JobQueue::retry_sweep(const std::string& id, std::size_t max_queued) {
     run_for_each(database,
                  "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?",
                  {*sweep});
-    // The number of the former end is kept below 0: there it is none of an end, but never given again.
-    SQLite::Statement queue(database,
-                            "UPDATE jobs SET state = 'queued', result = NULL, reused = 0, change = -change, "
-                            "started_ms = NULL, ended_ms = NULL "
-                            "WHERE sweep = ? AND state IN ('failed', 'cancelled')");
-    queue.bind(1, *sweep);
-    if (queue.exec() == 0) return true;
+    if (queue_again(database, *sweep) == 0) return true;
     rekey_queued_jobs(database);
-    SQLite::Statement settle(database,
-                             "UPDATE jobs SET state = 'succeeded', reused = 1, change = ?2, started_ms = "
-                             "max(?3, created_ms), ended_ms = max(?3, created_ms), "
-                             "result = (SELECT max(seq) FROM results r WHERE r.content = jobs.content AND "
-                             "r.error_reason IS NULL) "
-                             "WHERE sweep = ?1 AND state = 'queued' AND reuse = 1 "
-                             "AND EXISTS (SELECT 1 FROM results r WHERE r.content = jobs.content AND "
-                             "r.error_reason IS NULL)");
-    settle.bind(1, *sweep);
-    settle.bind(2, ++core_.changes);
-    settle.bind(3, now_unix_ms());
-    settle.exec();
+    settle_known_jobs(database, *sweep, ++core_.changes);
     check_queue_limit(database, max_queued);
     core_.check_quota(database);
     return true;
@@ -159,21 +199,9 @@ bool JobQueue::move_sweep(const std::string& id, const std::string& executor) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
-    SQLite::Statement left(database,
-                           "SELECT 1 FROM jobs WHERE sweep = ? AND state IN ('queued', 'running') LIMIT 1");
-    left.bind(1, *sweep);
-    if (!left.executeStep()) throw WrongState("the sweep has ended");
-    left.reset();
-    SQLite::Statement move(database, "UPDATE sweeps SET executor = ? WHERE seq = ?");
-    move.bind(1, executor);
-    move.bind(2, *sweep);
-    move.exec();
-    SQLite::Statement release(
-        database,
-        "UPDATE jobs SET batch = NULL, place = NULL WHERE sweep = ? AND state = 'queued' AND batch IS NOT "
-        "NULL");
-    release.bind(1, *sweep);
-    release.exec();
+    if (!has_open_jobs(database, *sweep)) throw WrongState("the sweep has ended");
+    change_executor(database, *sweep, executor);
+    release_queued_jobs(database, *sweep);
     return true;
   });
 }
@@ -190,24 +218,13 @@ DeleteOutcome JobQueue::delete_job(const std::string& id) {
     if (find.getColumn(2).getInt() != 0) return DeleteOutcome::kOfSweep;
     if (find.getColumn(3).getInt() != 0) return DeleteOutcome::kNotEnded;
     find.reset();
-    const auto results = find_numbers(database, "SELECT seq FROM results WHERE content = ?", content);
-    run_for_each(database, "DELETE FROM jobs WHERE seq = ?", {job});
-    delete_unused(database, {content}, results);
+    delete_single_job(database, job, content);
     return DeleteOutcome::kDone;
   });
 }
 
 DeleteOutcome JobQueue::delete_sweep(const std::string& id, const std::string& study) {
-  const auto delete_rest = [&](SQLite::Database& database) {
-    const auto sweep = find_sweep_seq(database, id);
-    if (!sweep) return DeleteOutcome::kMissing;
-    const DeleteOutcome outcome = find_delete_outcome(database, *sweep, id, study);
-    if (outcome != DeleteOutcome::kDone) return outcome;
-    delete_jobs(database, "SELECT seq FROM jobs WHERE sweep = ?1", *sweep);
-    run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {*sweep});
-    core_.served.erase(*sweep);
-    return DeleteOutcome::kDone;
-  };
+  const auto delete_rest = [&](SQLite::Database& database) { return delete_sweep(database, id, study); };
   try {
     return core_.writer.write(Durability::kSurvivesPowerLoss, delete_rest);
   } catch (const StorageError& error) {
@@ -220,6 +237,18 @@ DeleteOutcome JobQueue::delete_sweep(const std::string& id, const std::string& s
   while (delete_some_jobs(id, study)) core_.writer.empty_log();
   core_.writer.empty_log();
   return core_.writer.write(Durability::kSurvivesPowerLoss, delete_rest);
+}
+
+DeleteOutcome JobQueue::delete_sweep(SQLite::Database& database, const std::string& id,
+                                     const std::string& study) {
+  const auto sweep = find_sweep_seq(database, id);
+  if (!sweep) return DeleteOutcome::kMissing;
+  const DeleteOutcome outcome = find_delete_outcome(database, *sweep, id, study);
+  if (outcome != DeleteOutcome::kDone) return outcome;
+  delete_jobs(database, "SELECT seq FROM jobs WHERE sweep = ?1", *sweep);
+  run_for_each(database, "DELETE FROM sweeps WHERE seq = ?", {*sweep});
+  core_.served.erase(*sweep);
+  return DeleteOutcome::kDone;
 }
 
 bool JobQueue::delete_some_jobs(const std::string& id, const std::string& study) {

@@ -29,6 +29,14 @@ void append_cases(SQLite::Database& database, const std::string& id, const nlohm
   }
 }
 
+/// Stores the response to the request that has made a sweep, if the request has a key.
+void store_sweep_response(SQLite::Database& database, const IdempotencyRecord<SweepRow>& idempotency,
+                          const std::string& id, ActiveSweepCache& active) {
+  if (idempotency.key.empty()) return;
+  store_response(database, idempotency.key, idempotency.fingerprint,
+                 idempotency.make_response(read_sweep(database, id, active).value()));
+}
+
 }  // namespace
 
 std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued,
@@ -42,9 +50,7 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
     JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
     check_queue_limit(database, max_queued);
-    if (!idempotency.key.empty())
-      store_response(database, idempotency.key, idempotency.fingerprint,
-                     idempotency.make_response(read_sweep(database, id, core_.active).value()));
+    store_sweep_response(database, idempotency, id, core_.active);
     core_.check_quota(database);
     return id;
   });

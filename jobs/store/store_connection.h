@@ -164,25 +164,30 @@ class Writer {
   auto write_with(Durability durability, Work&& work, With& with, Disturbs disturbs) {
     const std::lock_guard lock(mutex_);
     if (disturbs == Disturbs::kYes) ++disturbances_;
+    return with_storage_errors([&] { return run_transaction(durability, work, with); }, &database_);
+  }
+
+  template <typename Work, typename With>
+  auto run_transaction(Durability durability, Work& work, With& with) {
     FailureCount count{.disturbances = disturbances_};
-    return with_storage_errors([&] {
-      file_lock_.check();
-      roll_back_unfinished(database_);
-      set_durability(durability);
-      Transaction transaction(database_, "BEGIN IMMEDIATE");
-      if constexpr (std::is_void_v<decltype(work(with))>) {
-        work(with);
-        file_lock_.check();
-        transaction.commit();
-        count.failed = false;
-      } else {
-        auto result = work(with);
-        file_lock_.check();
-        transaction.commit();
-        count.failed = false;
-        return result;
-      }
-    }, &database_);
+    file_lock_.check();
+    roll_back_unfinished(database_);
+    set_durability(durability);
+    Transaction transaction(database_, "BEGIN IMMEDIATE");
+    if constexpr (std::is_void_v<decltype(work(with))>) {
+      work(with);
+      commit(transaction, count);
+    } else {
+      auto result = work(with);
+      commit(transaction, count);
+      return result;
+    }
+  }
+
+  void commit(Transaction& transaction, FailureCount& count) {
+    file_lock_.check();
+    transaction.commit();
+    count.failed = false;
   }
 
   void set_durability(Durability durability);

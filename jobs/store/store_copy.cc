@@ -26,6 +26,21 @@ void make_empty_file(const std::filesystem::path& file) {
 
 int ask_whether_to_stop(void* stop) { return (*static_cast<const std::function<bool()>*>(stop))() ? 1 : 0; }
 
+/// Writes what the store holds now to an empty file. @returns whether stop() let it go on to the end
+bool vacuum_into(const std::filesystem::path& file, const std::filesystem::path& store,
+                 std::function<bool()> stop) {
+  constexpr int kStepsBetweenQuestions = 1000;
+  // A read-only connection of its own: it holds one snapshot of the store, while the others go on. Those of
+  // one process share the log's index, wherever it is.
+  SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kCopyBusyTimeout_ms);
+  sqlite3_progress_handler(database.getHandle(), kStepsBetweenQuestions, ask_whether_to_stop, &stop);
+  SQLite::Statement copy(database, "VACUUM INTO ?");
+  copy.bind(1, file.string());
+  if (copy.tryExecuteStep() == SQLITE_INTERRUPT) return false;
+  if (database.getErrorCode() != SQLITE_DONE) throw SQLite::Exception(database.getHandle());
+  return true;
+}
+
 }  // namespace
 
 void check_can_be_copied(const std::filesystem::path& store) {
@@ -43,24 +58,11 @@ void check_can_be_copied(const std::filesystem::path& store) {
 
 bool copy_store(const std::filesystem::path& store, const std::filesystem::path& file,
                 const std::function<bool()>& stop) {
-  constexpr int kStepsBetweenQuestions = 1000;
   make_empty_file(file);
   try {
-    return with_storage_errors([&] {
-      // A read-only connection of its own: it holds one snapshot of the store, while the others go on. Those
-      // of one process share the log's index, wherever it is.
-      SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kCopyBusyTimeout_ms);
-      auto question = stop;
-      sqlite3_progress_handler(database.getHandle(), kStepsBetweenQuestions, ask_whether_to_stop, &question);
-      SQLite::Statement copy(database, "VACUUM INTO ?");
-      copy.bind(1, file.string());
-      if (copy.tryExecuteStep() != SQLITE_INTERRUPT) {
-        if (database.getErrorCode() != SQLITE_DONE) throw SQLite::Exception(database.getHandle());
-        return true;
-      }
-      std::filesystem::remove(file);
-      return false;
-    });
+    const bool is_whole = with_storage_errors([&] { return vacuum_into(file, store, stop); });
+    if (!is_whole) std::filesystem::remove(file);
+    return is_whole;
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(file, ignored);

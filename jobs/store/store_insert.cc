@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/store_insert.h"
 
-#include <utility>
 #include <vector>
 
 #include "jobs/base/content_id.h"
@@ -99,31 +98,56 @@ void check_queue_limit(SQLite::Database& database, std::size_t max_queued) {
   }
 }
 
-void rekey_queued_jobs(SQLite::Database& database) {
+namespace {
+
+/// Content of queued jobs.
+struct QueuedContent {
+  std::int64_t seq = 0;
+  std::string parameters;
+};
+
+std::vector<QueuedContent> find_contents_of_other_engines(SQLite::Database& database) {
   SQLite::Statement old(database,
                         "SELECT DISTINCT c.seq, c.parameters FROM jobs j JOIN contents c ON c.seq = "
                         "j.content "
                         "WHERE j.state = 'queued' AND c.engine_version <> ?");
   old.bind(1, engine_version());
-  std::vector<std::pair<std::int64_t, std::string>> contents;
-  while (old.executeStep()) contents.emplace_back(old.getColumn(0).getInt64(), old.getColumn(1).getString());
-  for (const auto& [seq, parameters] : contents) {
-    const std::string name = content_id(parameters, engine_version());
-    SQLite::Statement add(
-        database,
-        "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO "
-        "NOTHING");
-    add.bind(1, name);
-    add.bind(2, engine_version());
-    add.bind(3, parameters);
-    add.exec();
-    SQLite::Statement move(
-        database,
-        "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND "
-        "state = 'queued'");
-    move.bind(1, name);
-    move.bind(2, seq);
-    move.exec();
+  std::vector<QueuedContent> contents;
+  while (old.executeStep())
+    contents.push_back({.seq = old.getColumn(0).getInt64(), .parameters = old.getColumn(1).getString()});
+  return contents;
+}
+
+/// Adds the content of this engine, unless there is one.
+void insert_content(SQLite::Database& database, const std::string& id, const std::string& parameters) {
+  SQLite::Statement add(
+      database,
+      "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO "
+      "NOTHING");
+  add.bind(1, id);
+  add.bind(2, engine_version());
+  add.bind(3, parameters);
+  add.exec();
+}
+
+/// @param id  content_id of the new content
+void move_queued_jobs(SQLite::Database& database, std::int64_t former, const std::string& id) {
+  SQLite::Statement move(
+      database,
+      "UPDATE jobs SET content = (SELECT seq FROM contents WHERE content_id = ?) WHERE content = ? AND "
+      "state = 'queued'");
+  move.bind(1, id);
+  move.bind(2, former);
+  move.exec();
+}
+
+}  // namespace
+
+void rekey_queued_jobs(SQLite::Database& database) {
+  for (const auto& [seq, parameters] : find_contents_of_other_engines(database)) {
+    const std::string id = content_id(parameters, engine_version());
+    insert_content(database, id, parameters);
+    move_queued_jobs(database, seq, id);
   }
 }
 

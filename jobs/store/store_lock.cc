@@ -77,6 +77,38 @@ bool is_locked(int file) {
   return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
+/// Closes a file that could not be locked. @throws StorageError that says why
+[[noreturn]] void throw_not_locked(int file, const std::string& path, const std::filesystem::path& store) {
+  const StorageError error =
+      errno == EWOULDBLOCK
+          ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
+          : system_error("cannot lock " + path);
+  ::close(file);
+  throw error;
+}
+
+/// @throws StorageError if another descriptor has locked the file
+void lock_file(int file, const std::filesystem::path& store) {
+  struct flock lock = lock_of_file(F_WRLCK);
+  if (::fcntl(file, F_OFD_SETLK, &lock) == 0) return;
+  if (errno != EAGAIN && errno != EACCES) throw system_error("cannot lock " + store.string());
+  throw StorageError("the store " + store.string() + " is in use by another process, under another name",
+                     SQLITE_BUSY);
+}
+
+/// Checks that nobody has locked a file but under this name, whose lock file then is locked, too.
+void check_not_locked_elsewhere(int file, const std::filesystem::path& store) {
+  const std::string path = std::filesystem::weakly_canonical(store).string() + ".lock";
+  const int own = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool other_name = own < 0 ? errno == ENOENT : !is_locked(own);
+  if (own >= 0) ::close(own);
+  if (is_locked(file) && other_name)
+    throw StorageError("the store " + store.string() +
+                           " is in use by another process, under another name, which its log belongs to: "
+                           "export it under that one",
+                       SQLITE_BUSY);
+}
+
 /// With several names the log of a process that was killed may lie beside another one, unseen.
 void check_has_one_name(int file, const std::filesystem::path& store) {
   struct stat status {};
@@ -144,14 +176,7 @@ StoreLock::StoreLock(const std::filesystem::path& store)
     made_ = file_ >= 0;
     if (!made_ && errno == EEXIST) file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnerOnly);
     if (file_ < 0) throw system_error("cannot open " + path_);
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      const bool held = errno == EWOULDBLOCK;
-      const StorageError error =
-          held ? StorageError("the store " + store.string() + " is in use by another process", SQLITE_BUSY)
-               : system_error("cannot lock " + path_);
-      ::close(file_);
-      throw error;
-    }
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) throw_not_locked(file_, path_, store);
     locked = is_named(file_, path_);
     if (!locked) ::close(file_);
   }
@@ -193,12 +218,7 @@ StoreFileLock::StoreFileLock(const std::filesystem::path& store)
   file_ = ::open(store.c_str(), O_RDWR | O_CLOEXEC);
   if (file_ < 0) return;  // SQLite tells why when it opens the file
   try {
-    struct flock lock = lock_of_file(F_WRLCK);
-    if (::fcntl(file_, F_OFD_SETLK, &lock) != 0) {
-      if (errno != EAGAIN && errno != EACCES) throw system_error("cannot lock " + store.string());
-      throw StorageError("the store " + store.string() + " is in use by another process, under another name",
-                         SQLITE_BUSY);
-    }
+    lock_file(file_, store);
     check_has_one_name(file_, store);
     check_log_is_here(file_, store);
     const std::string mark = log_mark_of(store);
@@ -230,16 +250,8 @@ void StoreFileLock::check() const {
 void check_name_of_store(const std::filesystem::path& store) {
   const int file = ::open(store.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) throw system_error("cannot read the store " + store.string());
-  const std::string path = std::filesystem::weakly_canonical(store).string() + ".lock";
-  const int own = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool other_name = own < 0 ? errno == ENOENT : !is_locked(own);
-  if (own >= 0) ::close(own);
   try {
-    if (is_locked(file) && other_name)
-      throw StorageError("the store " + store.string() +
-                             " is in use by another process, under another name, which its log belongs to: "
-                             "export it under that one",
-                         SQLITE_BUSY);
+    check_not_locked_elsewhere(file, store);
     check_has_one_name(file, store);
     check_log_is_here(file, store);
   } catch (...) {

@@ -2,15 +2,10 @@
 #include "jobs/store/store_results.h"
 
 namespace jobs {
+namespace {
 
-std::int64_t insert_result(Statements& statements, std::int64_t content, const RunRecord& record,
-                           const std::string& metrics, const Provenance& provenance) {
-  const auto add = statements.use(
-      "INSERT INTO results (content, metrics, error_reason, error_detail, error_t_s, wall_time_s, "
-      "cpu_time_s, host, cpu, version, "
-      "\"commit\", compiler, libm, numerics) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) RETURNING "
-      "seq");
-  add->bind(1, content);
+/// @param metrics  outlives the statement
+void bind_record(const Statements::Use& add, const RunRecord& record, const std::string& metrics) {
   if (record.end == RunRecord::End::kSucceeded) {
     add->bindNoCopy(2, metrics);
   } else {
@@ -20,11 +15,29 @@ std::int64_t insert_result(Statements& statements, std::int64_t content, const R
   }
   add->bind(6, record.wall_time_s);
   add->bind(7, record.cpu_time_s);
+}
+
+/// @param provenance  outlives the statement
+void bind_provenance(const Statements::Use& add, const Provenance& provenance) {
   int column = 8;
   for (const std::string* text : {&provenance.host, &provenance.cpu, &provenance.version, &provenance.commit,
                                   &provenance.compiler, &provenance.libm, &provenance.numerics}) {
     add->bindNoCopy(column++, *text);
   }
+}
+
+}  // namespace
+
+std::int64_t insert_result(Statements& statements, std::int64_t content, const RunRecord& record,
+                           const std::string& metrics, const Provenance& provenance) {
+  const auto add = statements.use(
+      "INSERT INTO results (content, metrics, error_reason, error_detail, error_t_s, wall_time_s, "
+      "cpu_time_s, host, cpu, version, "
+      "\"commit\", compiler, libm, numerics) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?) RETURNING "
+      "seq");
+  add->bind(1, content);
+  bind_record(add, record, metrics);
+  bind_provenance(add, provenance);
   add->executeStep();
   const std::int64_t result = add->getColumn(0).getInt64();
   add->executeStep();

@@ -208,6 +208,18 @@ void check_identity(SQLite::Database& database, const std::string& name) {
   }
 }
 
+/// @throws StorageError if the file system cannot hold a log
+void prepare_file(SQLite::Database& database, const std::string& name) {
+  // Large pages suit large trajectories. Neither takes effect in a file that has tables, but the second is
+  // written all the same.
+  if (is_empty(database)) database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
+  if (database.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
+    throw StorageError(
+        "the store " + name + " lies on a file system that does not share memory, as a network's",
+        SQLITE_CANTOPEN);
+  }
+}
+
 void migrate(SQLite::Database& database) {
   for (int version = pragma(database, "user_version"); version < kNewestVersion; ++version) {
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
@@ -227,14 +239,7 @@ void prepare_schema(SQLite::Database& database, const std::filesystem::path& sto
   try {
     check_identity(database, name);
     if (pragma(database, "user_version") > 0) check_health(database, name);
-    // Large pages suit large trajectories. Neither takes effect in a file that has tables, but the second is
-    // written all the same.
-    if (is_empty(database)) database.exec("PRAGMA page_size = 8192; PRAGMA auto_vacuum = INCREMENTAL");
-    if (database.execAndGet("PRAGMA journal_mode = WAL").getString() != "wal") {
-      throw StorageError(
-          "the store " + name + " lies on a file system that does not share memory, as a network's",
-          SQLITE_CANTOPEN);
-    }
+    prepare_file(database, name);
     migrate(database);
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode();

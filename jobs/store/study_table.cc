@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/study_table.h"
 
+#include <utility>
+
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "jobs/base/time_text.h"
@@ -29,6 +31,28 @@ StudyRow study_row(SQLite::Statement& found) {
   return row;
 }
 
+/// @returns the id
+std::string insert_study(SQLite::Database& database, std::string id, std::int64_t sweep,
+                         const std::string& request) {
+  SQLite::Statement add(database, "INSERT INTO searches (sweep, id, request) VALUES (?, ?, ?)");
+  add.bind(1, sweep);
+  add.bind(2, id);
+  add.bind(3, request);
+  add.exec();
+  return id;
+}
+
+/// Stores the response to the request that has made a study, if the request has a key.
+void store_study_response(SQLite::Database& database, const IdempotencyRecord<StudySnapshot>& idempotency,
+                          const std::string& id, ActiveSweepCache& active) {
+  if (idempotency.key.empty()) return;
+  StudyRow study = read_study(database, id).value();
+  auto results = read_results(database, study.sweep_id, RowParameters::kNone, active);
+  store_response(database, idempotency.key, idempotency.fingerprint,
+                 idempotency.make_response(
+                     {.study = std::move(study), .results = std::move(results).value()}));
+}
+
 }  // namespace
 
 std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request,
@@ -41,19 +65,8 @@ std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, cons
     JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
     for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
     check_queue_limit(database, max_queued);
-    std::string id = core_.ids.make(prefix, now_ms);
-    SQLite::Statement add(database, "INSERT INTO searches (sweep, id, request) VALUES (?, ?, ?)");
-    add.bind(1, sweep);
-    add.bind(2, id);
-    add.bind(3, request);
-    add.exec();
-    if (!idempotency.key.empty()) {
-      store_response(database, idempotency.key, idempotency.fingerprint,
-                     idempotency.make_response(
-                         {.study = read_study(database, id).value(),
-                          .results = read_results(database, sweep_id, RowParameters::kNone, core_.active)
-                                         .value()}));
-    }
+    std::string id = insert_study(database, core_.ids.make(prefix, now_ms), sweep, request);
+    store_study_response(database, idempotency, id, core_.active);
     core_.check_quota(database);
     return id;
   });

@@ -136,6 +136,15 @@ ResultRow result_row(SQLite::Statement& found) {
           .error_detail = optional_text(found.getColumn(8))};
 }
 
+EndedJob ended_job(SQLite::Statement& found) {
+  return {.change = found.getColumn(0).getInt64(),
+          .id = found.getColumn(1).getString(),
+          .state = found.getColumn(2).getString(),
+          .error_reason = optional_text(found.getColumn(3)),
+          .ended_ms = found.getColumn(4).getInt64(),
+          .reused = found.getColumn(5).getInt() != 0};
+}
+
 /// By its name alone: to open and close a file takes away SQLite's locks on it.
 std::int64_t size_or_zero(const std::filesystem::path& file) {
   std::error_code error;
@@ -159,6 +168,42 @@ std::string state_condition(const std::string& state) {
   if (state == "cancelled") return has("cancelled") + " AND NOT " + open;
   if (state == "failed") return has("failed") + " AND NOT " + has("cancelled") + " AND NOT " + open;
   return "NOT " + open + " AND NOT " + has("failed") + " AND NOT " + has("cancelled");
+}
+
+/// The ends of a sweep's jobs after a change.
+std::vector<EndedJob> read_ended(const SQLite::Database& database, const std::string& sweep_id,
+                                 std::int64_t after) {
+  SQLite::Statement list(database,
+                         "SELECT j.change, j.id, j.state, r.error_reason, j.ended_ms, j.reused FROM jobs j "
+                         "LEFT JOIN results r ON r.seq = j.result "
+                         "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) AND j.change > ? ORDER BY "
+                         "j.change, j.seq");
+  list.bind(1, sweep_id);
+  list.bind(2, after);
+  std::vector<EndedJob> ended;
+  while (list.executeStep()) ended.push_back(ended_job(list));
+  return ended;
+}
+
+using BlobPointer = std::unique_ptr<sqlite3_blob, int (*)(sqlite3_blob*)>;
+
+BlobPointer open_trajectory(const SQLite::Database& database, std::int64_t result) {
+  sqlite3_blob* opened = nullptr;
+  const int code =
+      sqlite3_blob_open(database.getHandle(), "main", "trajectories", "data", result, 0, &opened);
+  BlobPointer blob(opened, &sqlite3_blob_close);
+  if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
+  return blob;
+}
+
+/// @param blob  outlives what is returned
+StoredBytes bytes_of_blob(const SQLite::Database& database, sqlite3_blob* blob) {
+  return {.size = static_cast<std::size_t>(sqlite3_blob_bytes(blob)),
+          .read_to = [&database, blob](std::size_t offset, std::span<char> to) {
+            const int error = sqlite3_blob_read(blob, to.data(), static_cast<int>(to.size()),
+                                                static_cast<int>(offset));
+            if (error != SQLITE_OK) throw SQLite::Exception(database.getHandle(), error);
+          }};
 }
 
 }  // namespace
@@ -273,23 +318,7 @@ std::optional<SweepChanges> SweepReader::find_changes(const std::string& sweep_i
   return core_.readers.read([&](const SQLite::Database& database) -> std::optional<SweepChanges> {
     auto sweep = read_sweep_with(database, sweep_id, "''", core_.active);
     if (!sweep) return std::nullopt;
-    SweepChanges changes{.sweep = std::move(*sweep), .ended = {}};
-    SQLite::Statement list(database,
-                           "SELECT j.change, j.id, j.state, r.error_reason, j.ended_ms, j.reused FROM jobs j "
-                           "LEFT JOIN results r ON r.seq = j.result "
-                           "WHERE j.sweep = (SELECT seq FROM sweeps WHERE id = ?) AND j.change > ? ORDER BY "
-                           "j.change, j.seq");
-    list.bind(1, sweep_id);
-    list.bind(2, after);
-    while (list.executeStep()) {
-      changes.ended.push_back({.change = list.getColumn(0).getInt64(),
-                               .id = list.getColumn(1).getString(),
-                               .state = list.getColumn(2).getString(),
-                               .error_reason = optional_text(list.getColumn(3)),
-                               .ended_ms = list.getColumn(4).getInt64(),
-                               .reused = list.getColumn(5).getInt() != 0});
-    }
-    return changes;
+    return SweepChanges{.sweep = std::move(*sweep), .ended = read_ended(database, sweep_id, after)};
   });
 }
 
@@ -311,17 +340,8 @@ bool SweepReader::read_trajectory(const std::string& job_id,
         database, "SELECT t.result FROM jobs j JOIN trajectories t ON t.result = j.result WHERE j.id = ?");
     find.bind(1, job_id);
     if (!find.executeStep()) return false;
-    sqlite3_blob* opened = nullptr;
-    const int code = sqlite3_blob_open(database.getHandle(), "main", "trajectories", "data",
-                                       find.getColumn(0).getInt64(), 0, &opened);
-    const std::unique_ptr<sqlite3_blob, int (*)(sqlite3_blob*)> blob(opened, &sqlite3_blob_close);
-    if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
-    use({.size = static_cast<std::size_t>(sqlite3_blob_bytes(blob.get())),
-         .read_to = [&](std::size_t offset, std::span<char> to) {
-           const int error = sqlite3_blob_read(blob.get(), to.data(), static_cast<int>(to.size()),
-                                               static_cast<int>(offset));
-           if (error != SQLITE_OK) throw SQLite::Exception(database.getHandle(), error);
-         }});
+    const BlobPointer blob = open_trajectory(database, find.getColumn(0).getInt64());
+    use(bytes_of_blob(database, blob.get()));
     return true;
   });
 }
