@@ -122,16 +122,56 @@ ResultFile decode_payload(std::string_view bytes) {
   return file;
 }
 
+void write_header(ByteWriter& to, const BatchHeader& header) {
+  to.text(header.batch);
+  to.text(header.engine);
+  to.number(header.limits.wall_time_s);
+  to.number(static_cast<std::int64_t>(header.limits.steps));
+  to.number(static_cast<std::uint64_t>(header.limits.memory_bytes));
+  to.number(header.deliver_every_s);
+}
+
+/// Table of the jobs of a file.
+struct JobTable {
+  std::map<BatchIndex, JobEntry> entries;
+  std::size_t size = 0;  ///< of all that stands before the parameters
+};
+
+JobTable read_job_table(std::ifstream& in, const std::filesystem::path& file, BatchHeader& header) {
+  std::uint32_t size = 0;
+  if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > kLargestBatchHeader) {
+    throw FileError(file.string() + " is cut off or no file of jobs");
+  }
+  const std::string head = read_bytes(in, size, file);
+  JobTable table{.entries = {}, .size = sizeof size + size};
+  try {
+    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header))
+      table.entries.emplace(entry.batch_index, entry);
+  } catch (const DamagedTrajectory& error) {
+    throw FileError(file.string() + " is damaged: " + error.what());
+  }
+  return table;
+}
+
+std::string read_job_text(std::ifstream& in, const std::filesystem::path& file, const JobTable& table,
+                          BatchIndex batch_index) {
+  const auto found = table.entries.find(batch_index);
+  if (found == table.entries.end())
+    throw FileError(file.string() + " has no job " + std::to_string(batch_index));
+  in.seekg(static_cast<std::streamoff>(table.size + found->second.offset));
+  std::string text = read_bytes(in, found->second.size + kSha256Digits, file);
+  const std::string digest = text.substr(found->second.size);
+  text.resize(found->second.size);
+  if (sha256_hex(text) != digest)
+    throw FileError(file.string() + " is damaged at job " + std::to_string(batch_index));
+  return text;
+}
+
 }  // namespace
 
 std::string encode_jobs(const BatchHeader& header, const BatchJobs& jobs) {
   ByteWriter writer;
-  writer.text(header.batch);
-  writer.text(header.engine);
-  writer.number(header.limits.wall_time_s);
-  writer.number(static_cast<std::int64_t>(header.limits.steps));
-  writer.number(static_cast<std::uint64_t>(header.limits.memory_bytes));
-  writer.number(header.deliver_every_s);
+  write_header(writer, header);
   writer.number(static_cast<std::uint32_t>(jobs.size()));
   std::string texts;
   for (const auto& [batch_index, parameters] : jobs) {
@@ -150,30 +190,10 @@ BatchJobs read_jobs(const std::filesystem::path& file, const std::vector<BatchIn
                     BatchHeader& header) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError("cannot read " + file.string());
-  std::uint32_t size = 0;
-  if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > kLargestBatchHeader) {
-    throw FileError(file.string() + " is cut off or no file of jobs");
-  }
-  const std::string head = read_bytes(in, size, file);
-  std::map<BatchIndex, JobEntry> entries;
-  try {
-    for (const JobEntry& entry : read_header(unseal(kJobsMagic, head), header))
-      entries.emplace(entry.batch_index, entry);
-  } catch (const DamagedTrajectory& error) {
-    throw FileError(file.string() + " is damaged: " + error.what());
-  }
+  const JobTable table = read_job_table(in, file, header);
   BatchJobs jobs;
-  for (const BatchIndex batch_index : wanted) {
-    const auto found = entries.find(batch_index);
-    if (found == entries.end()) throw FileError(file.string() + " has no job " + std::to_string(batch_index));
-    in.seekg(static_cast<std::streamoff>(sizeof size + size + found->second.offset));
-    std::string text = read_bytes(in, found->second.size + kSha256Digits, file);
-    const std::string digest = text.substr(found->second.size);
-    text.resize(found->second.size);
-    if (sha256_hex(text) != digest)
-      throw FileError(file.string() + " is damaged at job " + std::to_string(batch_index));
-    jobs.emplace(batch_index, std::move(text));
-  }
+  for (const BatchIndex batch_index : wanted)
+    jobs.emplace(batch_index, read_job_text(in, file, table, batch_index));
   return jobs;
 }
 

@@ -78,14 +78,7 @@ class Check {
   bool write_into_folder() {
     try {
       program_ = share_program(site_);
-      const auto job = nlohmann::json::parse(kJob);
-      const std::string parameters = complete_parameters(job, "").dump();
-      batch_.prepare({.batch = batch_.row().id, .engine = engine_version(), .limits = {},
-                      .deliver_every_s = 60.0},
-                     {{.batch_index = 0, .parameters = parameters, .kind = {}, .duration_s = 0.3}});
-      batch_.add_generation(
-          {{.indices = {0}}},
-          make_script(site_, program_, "run-task " + shell_quoted(batch_.folder().path.string()) + " 0"));
+      write_batch();
     } catch (const std::exception& error) {
       return fault(error.what(),
                    "--slurm-folder must be a folder in which this user may write, with some 50 MB of room.");
@@ -110,29 +103,37 @@ class Check {
   bool have_a_job_computed(std::chrono::seconds at_most, const std::function<bool()>& stop_requested) {
     const Submission answer = slurm_.submit(order());
     if (!answer.array_job) return fault(answer.problem, "sbatch --test-only had taken the same.");
-    const auto start = Clock::now();
-    std::optional<Clock::time_point> ended;
-    TaskReport last;
-    for (auto next_look = start; Clock::now() - start < at_most && !stop_requested();) {
-      if (const auto files = batch_.find_new_results(); !files.empty())
-        return compare(decode_results(read_whole(files.front())), start, ended);
-      if (Clock::now() >= next_look) {
-        next_look = Clock::now() + std::min(site_.queue_poll, std::chrono::milliseconds(2'000));
-        last = look(last);
-        if (!is_alive(last.phase) && !ended) ended = Clock::now();
-        if (ended && Clock::now() - *ended > site_.grace) return no_result(last);
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return fault(
-        "the job has not been computed within " + std::to_string(at_most.count()) + " s; Slurm says " +
-            last.word + ", " + last.reason,
-        is_alive(last.phase)
-            ? "If the queue is long, check again with a larger --wait-s; sinfo shows which nodes are up."
-            : "");
+    return await_result(at_most, stop_requested);
   }
 
  private:
+  void write_batch() {
+    const auto job = nlohmann::json::parse(kJob);
+    const std::string parameters = complete_parameters(job, "").dump();
+    const BatchHeader header{
+        .batch = batch_.row().id, .engine = engine_version(), .limits = {}, .deliver_every_s = 60.0};
+    batch_.prepare(header,
+                   {{.batch_index = 0, .parameters = parameters, .kind = {}, .duration_s = 0.3}});
+    batch_.add_generation(
+        {{.indices = {0}}},
+        make_script(site_, program_, "run-task " + shell_quoted(batch_.folder().path.string()) + " 0"));
+  }
+
+  bool await_result(std::chrono::seconds at_most, const std::function<bool()>& stop_requested) {
+    const auto start = Clock::now();
+    for (auto next_look = start; Clock::now() - start < at_most && !stop_requested();) {
+      if (const auto files = batch_.find_new_results(); !files.empty())
+        return judge_result(decode_results(read_whole(files.front())), start);
+      if (Clock::now() >= next_look) {
+        next_look = Clock::now() + std::min(site_.queue_poll, std::chrono::milliseconds(2'000));
+        look();
+        if (ended_ && Clock::now() - *ended_ > site_.grace) return no_result();
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return too_late(at_most);
+  }
+
   void good(std::string text) { tell_({.kind = Kind::kGood, .text = std::move(text), .advice = {}}); }
   void warn(std::string text, std::string advice) { tell_({.kind = Kind::kWarning, .text = std::move(text),
                                                            .advice = std::move(advice)}); }
@@ -149,17 +150,28 @@ class Check {
             .log = (folder.path / "log" / "g0-%a.log").string()};
   }
 
-  TaskReport look(const TaskReport& last) {
+  void look() {
     std::string problem;
     const auto reports = slurm_.observe({batch_.array_name(0)}, problem);
-    if (!reports) return last;
-    const auto own = batch_.reports_of(*reports);
-    return own.empty() ? last : own.begin()->second;
+    if (reports) {
+      const auto own = batch_.reports_of(*reports);
+      if (!own.empty()) last_ = own.begin()->second;
+    }
+    if (!is_alive(last_.phase) && !ended_) ended_ = Clock::now();
   }
 
-  bool no_result(const TaskReport& last) {
+  bool too_late(std::chrono::seconds at_most) {
+    return fault(
+        "the job has not been computed within " + std::to_string(at_most.count()) + " s; Slurm says " +
+            last_.word + ", " + last_.reason,
+        is_alive(last_.phase)
+            ? "If the queue is long, check again with a larger --wait-s; sinfo shows which nodes are up."
+            : "");
+  }
+
+  bool no_result() {
     const std::string log = tail_of(batch_.folder().log(0, 0), kTrialLogTail);
-    const std::string ended = "the task ended as " + last.word + " on " + last.node + " without a result";
+    const std::string ended = "the task ended as " + last_.word + " on " + last_.node + " without a result";
     if (log.empty() && !std::filesystem::exists(batch_.folder().log(0, 0))) {
       return fault(ended + " and without a log",
                    "The node does not see the shared folder, or may not write into it: "
@@ -169,16 +181,21 @@ class Check {
                  "If a library is missing there, --slurm-prologue can load it ('module load gcc').");
   }
 
-  bool compare(const ResultFile& file, Clock::time_point start, std::optional<Clock::time_point> ended) {
+  bool judge_result(const ResultFile& file, Clock::time_point start) {
     const std::chrono::duration<double> took = Clock::now() - start;
     good("a node, " + file.provenance.host + ", has computed a job; its result was here after " +
          seconds_text(took.count()));
-    if (ended) {
-      const std::chrono::duration<double> late = Clock::now() - *ended;
-      const std::string text =
-          "the result showed " + seconds_text(late.count()) + " after the end of the task";
-      if (late > site_.grace / 2) warn(text, "Let --slurm-grace-s be some times that.");
-    }
+    if (ended_) check_delay(Clock::now() - *ended_);
+    compare_with_own(file);
+    return true;
+  }
+
+  void check_delay(std::chrono::duration<double> late) {
+    const std::string text = "the result showed " + seconds_text(late.count()) + " after the end of the task";
+    if (late > site_.grace / 2) warn(text, "Let --slurm-grace-s be some times that.");
+  }
+
+  void compare_with_own(const ResultFile& file) {
     const JobSpec job = to_job_spec(complete_parameters(nlohmann::json::parse(kJob), ""));
     const RunRecord own = run_and_record(job, engine_runner(), [](double) { return false; });
     const std::string here = provenance_text(own_provenance()), there = provenance_text(file.provenance);
@@ -191,7 +208,6 @@ class Check {
            "Results of both are right, but not the same bytes. Let --slurm-constraint choose nodes of one "
            "kind, or give --numerics portable.");
     }
-    return true;
   }
 
   static std::string provenance_text(const Provenance& from) {
@@ -203,6 +219,8 @@ class Check {
   const Slurm slurm_;
   Batch batch_;
   std::filesystem::path program_;
+  TaskReport last_;                         ///< of the task
+  std::optional<Clock::time_point> ended_;  ///< when the task was first seen to have ended
 };
 
 }  // namespace

@@ -9,18 +9,19 @@ void ClusterStatus::set_reports(const Reports& reports) {
   nodes_.clear();
   waiting_.clear();
   need_human_.clear();
-  for (const auto& [name, tasks] : reports) {
-    for (const auto& [index, report] : tasks) {
-      if (!is_alive(report.phase)) continue;
-      if (report.needs_human()) ++need_human_[report.word + ", " + report.reason];
-      if (report.phase == Phase::kRunning) {
-        ++running_;
-        nodes_.insert(report.node);
-      } else {
-        ++pending_;
-        ++waiting_[report.reason];
-      }
-    }
+  for (const auto& [name, tasks] : reports)
+    for (const auto& [index, report] : tasks)
+      if (is_alive(report.phase)) count(report);
+}
+
+void ClusterStatus::count(const TaskReport& report) {
+  if (report.needs_human()) ++need_human_[report.word + ", " + report.reason];
+  if (report.phase == Phase::kRunning) {
+    ++running_;
+    nodes_.insert(report.node);
+  } else {
+    ++pending_;
+    ++waiting_[report.reason];
   }
 }
 

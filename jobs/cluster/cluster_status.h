@@ -27,6 +27,8 @@ class ClusterStatus {
   [[nodiscard]] nlohmann::json json() const;
 
  private:
+  void count(const TaskReport& report);
+
   mutable std::mutex mutex_;  // guards the rest
   int pending_ = 0, running_ = 0;
   std::set<std::string> nodes_;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <thread>
 
@@ -99,31 +100,52 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
+/// Waits for some time, or until there is output. @param out, err  -1: closed
+void await_output(int out, int err, milliseconds wait) {
+  if (out < 0 && err < 0) return std::this_thread::sleep_for(wait);
+  std::array<pollfd, 2> ends{pollfd{.fd = out, .events = POLLIN, .revents = 0},
+                             pollfd{.fd = err, .events = POLLIN, .revents = 0}};
+  ::poll(ends.data(), ends.size(), static_cast<int>(wait.count()));
+}
+
+/// Ends a child and what it has started.
+void kill_group(pid_t child) {
+  ::kill(-child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+}
+
 /// Reads until the child has ended: what it has started may keep the pipes open for longer.
 void follow(pid_t child, Pipe& out, Pipe& err, Clock::time_point until, const std::stop_token& stop,
             ProcessOutcome& outcome) {
   bool out_open = true, err_open = true;
   int status = 0;
   for (milliseconds wait{1};; wait = std::min(2 * wait, milliseconds(50))) {
-    std::array<pollfd, 2> ends{pollfd{.fd = out_open ? out.out() : -1, .events = POLLIN, .revents = 0},
-                               pollfd{.fd = err_open ? err.out() : -1, .events = POLLIN, .revents = 0}};
-    if (out_open || err_open) {
-      ::poll(ends.data(), ends.size(), static_cast<int>(wait.count()));
-    } else {
-      std::this_thread::sleep_for(wait);
-    }
+    await_output(out_open ? out.out() : -1, err_open ? err.out() : -1, wait);
     const bool ended = ::waitpid(child, &status, WNOHANG) == child;
     if (out_open) out_open = out.read_to(outcome.out);
     if (err_open) err_open = err.read_to(outcome.err);
     if (ended) break;
     if (Clock::now() < until && !stop.stop_requested()) continue;
-    ::kill(-child, SIGKILL);
-    ::waitpid(child, &status, 0);
+    kill_group(child);
     outcome.end = stop.stop_requested() ? ProcessOutcome::End::kStopped : ProcessOutcome::End::kTimedOut;
     return;
   }
   outcome.end = ProcessOutcome::End::kExited;
   outcome.code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+/// Starts a program whose output goes into the pipes.
+/// @returns empty if it cannot be started; the problem says why
+std::optional<pid_t> start_child(std::vector<std::string> words, const Pipe& out, const Pipe& err,
+                                 std::string& problem) {
+  std::vector<std::string> variables = cleaned_environment();
+  const SpawnSettings settings(out, err);
+  pid_t child = 0;
+  const int error = ::posix_spawnp(&child, words.front().c_str(), &settings.actions_, &settings.attributes_,
+                                   pointers_to(words).data(), pointers_to(variables).data());
+  if (error == 0) return child;
+  problem = words.front() + " cannot be started: " + std::strerror(error);
+  return std::nullopt;
 }
 
 std::string last_line(std::string text) {
@@ -145,22 +167,12 @@ std::string ProcessOutcome::text() const {
 ProcessOutcome run_process(const std::vector<std::string>& arguments, milliseconds deadline,
                            const std::stop_token& stop) {
   ProcessOutcome outcome;
-  std::vector<std::string> words = arguments;
-  std::vector<std::string> variables = cleaned_environment();
   Pipe out, err;
-  pid_t child = 0;
-  {
-    const SpawnSettings settings(out, err);
-    const int error = ::posix_spawnp(&child, words.front().c_str(), &settings.actions_, &settings.attributes_,
-                                     pointers_to(words).data(), pointers_to(variables).data());
-    if (error != 0) {
-      outcome.err = words.front() + " cannot be started: " + std::strerror(error);
-      return outcome;
-    }
-  }
+  const auto child = start_child(arguments, out, err, outcome.err);
+  if (!child) return outcome;
   out.close_in();
   err.close_in();
-  follow(child, out, err, Clock::now() + deadline, stop, outcome);
+  follow(*child, out, err, Clock::now() + deadline, stop, outcome);
   return outcome;
 }
 

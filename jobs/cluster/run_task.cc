@@ -49,11 +49,30 @@ TaskPlan read_plan(const TaskOrder& order, const BatchFolder& folder) {
   return tasks[static_cast<std::size_t>(order.index)];
 }
 
+/// Jobs of a task that have no result from it yet.
+std::vector<BatchIndex> find_remaining(const TaskOrder& order, const BatchFolder& folder,
+                                       const std::function<void(const std::string&)>& log) {
+  TaskPlan plan = read_plan(order, folder);
+  const std::set<BatchIndex> done = find_done(order, folder.out(), log);
+  std::erase_if(plan.indices, [&](BatchIndex batch_index) { return done.contains(batch_index); });
+  return plan.indices;
+}
+
+/// @throws FileError, also if the batch is for another engine
+BatchJobs read_own_jobs(const BatchFolder& folder, const std::vector<BatchIndex>& indices,
+                        BatchHeader& header) {
+  BatchJobs jobs = read_jobs(folder.jobs(), indices, header);
+  if (header.engine != engine_version())
+    throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
+  return jobs;
+}
+
 /// The results that are ready, and the files they go to.
 class Delivery {
  public:
-  Delivery(const TaskOrder& order, BatchFolder folder, std::string batch)
-      : order_(order), folder_(std::move(folder)), batch_(std::move(batch)) {}
+  /// @param jobs  number of those whose results are to come
+  Delivery(const TaskOrder& order, BatchFolder folder, std::string batch, std::size_t jobs)
+      : order_(order), folder_(std::move(folder)), batch_(std::move(batch)), jobs_(jobs) {}
 
   void add(BatchIndex batch_index, RunRecord record) {
     BatchResult result{.batch_index = batch_index, .record = std::move(record), .packed_trajectory = {}};
@@ -67,10 +86,10 @@ class Delivery {
     changed_.notify_all();
   }
 
-  /// Waits until so many results have come, or for some time. Returns whether they have.
-  bool await(std::size_t total, milliseconds time) {
+  /// Waits until all results have come, or for some time. Returns whether they have.
+  bool await_all(milliseconds time) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, time, [&] { return total_ >= total; });
+    return changed_.wait_for(lock, time, [&] { return total_ >= jobs_; });
   }
 
   /// Whether so much is ready that it should not wait: one file is read at once at the other end.
@@ -89,11 +108,7 @@ class Delivery {
     ready_bytes_ = 0;
     lock.unlock();
     try {
-      // A name of its own: another process may have been given the same task, and has other jobs ready.
-      constexpr std::size_t kDigits = 16;
-      const std::string bytes = encode_results(file);
-      write_durably(folder_.out() / (file_prefix(order_) + sha256_hex(bytes).substr(0, kDigits) + ".results"),
-                    bytes);
+      write(file);
     } catch (const FileError&) {
       lock.lock();
       std::ranges::move(ready_, std::back_inserter(file.results));
@@ -103,9 +118,18 @@ class Delivery {
   }
 
  private:
+  void write(const ResultFile& file) const {
+    // A name of its own: another process may have been given the same task, and has other jobs ready.
+    constexpr std::size_t kDigits = 16;
+    const std::string bytes = encode_results(file);
+    write_durably(folder_.out() / (file_prefix(order_) + sha256_hex(bytes).substr(0, kDigits) + ".results"),
+                  bytes);
+  }
+
   const TaskOrder& order_;
   const BatchFolder folder_;
   const std::string batch_;
+  const std::size_t jobs_;
 
   std::mutex mutex_;  // guards the rest
   std::condition_variable changed_;
@@ -133,6 +157,53 @@ class Remaining {
   BatchJobs jobs_;
 };
 
+JobSource source_of(Remaining& remaining, Delivery& delivery) {
+  return {.claim = [&remaining](const OnClaim& on_claim) { remaining.claim(on_claim); },
+          .record = [&delivery](const ClaimedJob& job, const RunRecord& record,
+                                const OnClaim&) { delivery.add(static_cast<BatchIndex>(job.seq), record); },
+          .requeue = [](const ClaimedJob&) {}};
+}
+
+/// Looks now and then for the file by which a batch is cancelled.
+class CancelWatch {
+ public:
+  explicit CancelWatch(std::filesystem::path file) : file_(std::move(file)) {}
+
+  bool sees_file() {
+    const auto now = SteadyClock::now();
+    if (now < next_look_) return false;
+    next_look_ = now + std::chrono::seconds(2);
+    return std::filesystem::exists(file_);
+  }
+
+ private:
+  const std::filesystem::path file_;
+  SteadyClock::time_point next_look_{};
+};
+
+void try_to_deliver(Delivery& delivery, const std::function<void(const std::string&)>& log) {
+  try {
+    delivery.deliver();
+  } catch (const FileError& error) {
+    log(error.what());
+  }
+}
+
+/// Delivers what is ready now and then, until every job has a result or the task is to stop.
+void deliver_meanwhile(Delivery& delivery, double interval_s,
+                       const std::function<bool()>& stop_requested,
+                       const std::function<void(const std::string&)>& log) {
+  const auto interval =
+      std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(interval_s));
+  auto next = SteadyClock::now() + interval;
+  while (!delivery.await_all(milliseconds(100)) && !stop_requested()) {
+    const auto now = SteadyClock::now();
+    if (now < next && !delivery.is_large()) continue;
+    next = now + interval;
+    try_to_deliver(delivery, log);
+  }
+}
+
 /// The last results are worth waiting for: the folder may be full or away for a while.
 void deliver_at_the_end(Delivery& delivery, const std::function<void(const std::string&)>& log) {
   constexpr milliseconds kPause{5'000};
@@ -153,45 +224,18 @@ void deliver_at_the_end(Delivery& delivery, const std::function<void(const std::
 bool run_task(const TaskOrder& order, const std::function<bool()>& stop_requested,
               const std::function<void(const std::string&)>& log) {
   const BatchFolder folder{order.folder};
-  TaskPlan plan = read_plan(order, folder);
-  const std::set<BatchIndex> done = find_done(order, folder.out(), log);
-  std::erase_if(plan.indices, [&](BatchIndex batch_index) { return done.contains(batch_index); });
-  if (plan.indices.empty()) return true;
+  const std::vector<BatchIndex> indices = find_remaining(order, folder, log);
+  if (indices.empty()) return true;
   BatchHeader header;
-  Remaining remaining(read_jobs(folder.jobs(), plan.indices, header));
-  if (header.engine != engine_version())
-    throw FileError("this program's engine is " + engine_version() + ", the batch is for " + header.engine);
-  Delivery delivery(order, folder, header.batch);
-  LocalPool pool({.claim = [&](const OnClaim& on_claim) { remaining.claim(on_claim); },
-                  .record = [&](const ClaimedJob& job, const RunRecord& record,
-                                const OnClaim&) { delivery.add(static_cast<BatchIndex>(job.seq), record); },
-                  .requeue = [](const ClaimedJob&) {}},
-                 order.runner, order.threads, log, header.limits);
-  const auto interval = std::chrono::duration_cast<SteadyClock::duration>(
-      std::chrono::duration<double>(header.deliver_every_s));
-  auto next = SteadyClock::now() + interval;
-  auto next_look = SteadyClock::now();
-  bool complete = false;
-  bool stopped = false;
-  while (!complete && !stopped) {
-    complete = delivery.await(plan.indices.size(), milliseconds(100));
-    stopped = stop_requested();
-    const auto now = SteadyClock::now();
-    if (now >= next_look) {
-      stopped = stopped || std::filesystem::exists(folder.cancel());
-      next_look = now + std::chrono::seconds(2);
-    }
-    if (complete || stopped || (now < next && !delivery.is_large())) continue;
-    next = now + interval;
-    try {
-      delivery.deliver();
-    } catch (const FileError& error) {
-      log(error.what());
-    }
-  }
+  Remaining remaining(read_own_jobs(folder, indices, header));
+  Delivery delivery(order, folder, header.batch, indices.size());
+  LocalPool pool(source_of(remaining, delivery), order.runner, order.threads, log, header.limits);
+  CancelWatch watch(folder.cancel());
+  const auto is_to_stop = [&] { return stop_requested() || watch.sees_file(); };
+  deliver_meanwhile(delivery, header.deliver_every_s, is_to_stop, log);
   pool.stop();
   deliver_at_the_end(delivery, log);
-  return delivery.await(plan.indices.size(), milliseconds(0));
+  return delivery.await_all(milliseconds(0));
 }
 
 }  // namespace jobs::cluster

@@ -35,6 +35,17 @@ std::string as_utf8(const std::string& text) {
       .get<std::string>();
 }
 
+/// @param log  of its last task
+RunRecord make_failed_record(const LostJob& job, const std::filesystem::path& log) {
+  const std::string tail = tail_of(log, kLogTail);
+  RunRecord record;
+  record.end = RunRecord::End::kFailed;
+  record.error_reason = job.reason;
+  record.error_detail =
+      as_utf8(job.detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
+  return record;
+}
+
 /// Tasks that leave something every so often must not be too much for the folder together: 20 a second.
 double delivery_interval_s(int running) { return std::max(30.0, running / 20.0); }
 
@@ -254,12 +265,8 @@ void SlurmExecutor::fail(Live& live, const std::vector<LostJob>& jobs) {
   std::vector<BatchRecord> placed;
   const std::string no_trajectory;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const std::string tail =
-        tail_of(live.batch.folder().log(jobs[i].task.generation, jobs[i].task.index), kLogTail);
-    records[i].end = RunRecord::End::kFailed;
-    records[i].error_reason = jobs[i].reason;
-    records[i].error_detail =
-        as_utf8(jobs[i].detail + (tail.empty() ? "; its log is empty" : "; the end of its log: " + tail));
+    const TaskName& task = jobs[i].task;
+    records[i] = make_failed_record(jobs[i], live.batch.folder().log(task.generation, task.index));
     placed.push_back({.batch_index = jobs[i].batch_index, .record = &records[i],
                       .packed_trajectory = &no_trajectory});
   }
@@ -284,24 +291,30 @@ void SlurmExecutor::submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_
 void SlurmExecutor::submit_generation(Live& live, const std::vector<TaskPlan>& tasks, Clock::time_point now) {
   prepare(live);
   const int generation = live.batch.generations();
-  const BatchFolder& folder = live.batch.folder();
-  const std::string arguments =
-      "run-task " + shell_quoted(folder.path.string()) + " " + std::to_string(generation);
+  const std::string arguments = "run-task " + shell_quoted(live.batch.folder().path.string()) + " " +
+                                std::to_string(generation);
   live.batch.add_generation(tasks, make_script(site_, program_, arguments));
-  const auto largest = std::ranges::max_element(tasks, {}, &TaskPlan::memory_factor);
-  const Submission answer =
-      slurm_.submit({.name = live.batch.array_name(generation),
-                     .tasks = static_cast<int>(tasks.size()),
-                     .time_s = time_limit_s(live, tasks),
-                     .memory_factor = largest->memory_factor,
-                     .folder = folder.path,
-                     .script = folder.script(generation),
-                     .log = (folder.path / "log" / ("g" + std::to_string(generation) + "-%a.log")).string()});
+  const Submission answer = slurm_.submit(order_of(live, generation, tasks));
   tell_problem("sbatch", answer.problem);
-  if (answer.array_job) {
-    live.batch.refusals = 0;
-    return;
-  }
+  if (answer.array_job) live.batch.refusals = 0;
+  else pause_after_refusal(live, generation, now);
+}
+
+ArrayOrder SlurmExecutor::order_of(const Live& live, int generation,
+                                   const std::vector<TaskPlan>& tasks) const {
+  const BatchFolder& folder = live.batch.folder();
+  const auto largest = std::ranges::max_element(tasks, {}, &TaskPlan::memory_factor);
+  return {.name = live.batch.array_name(generation),
+          .tasks = static_cast<int>(tasks.size()),
+          .time_s = time_limit_s(live, tasks),
+          .memory_factor = largest->memory_factor,
+          .folder = folder.path,
+          .script = folder.script(generation),
+          .log = (folder.path / "log" / ("g" + std::to_string(generation) + "-%a.log")).string()};
+}
+
+/// Each refusal in a row makes the pause before the next try twice as long.
+void SlurmExecutor::pause_after_refusal(Live& live, int generation, Clock::time_point now) {
   live.batch.set_refused(generation);
   const int doublings = std::min(live.batch.refusals++, kMostDoublings);
   live.batch.not_before = now + kFirstRefusalPause * (1 << doublings);
@@ -329,18 +342,12 @@ void SlurmExecutor::take_jobs(Clock::time_point now) {
 }
 
 bool SlurmExecutor::take_batch(int free_tasks, Clock::time_point now) {
-  const auto rates = batches_.find_cost_rates();
+  const bool are_costs_known = !batches_.find_cost_rates().empty();
+  // While nothing is known of what jobs cost, the first ones are to tell.
+  if (!are_costs_known && !live_.empty()) return false;
   TaskBounds bound = bounds();
   bound.most_tasks = free_tasks;
-  std::size_t most_jobs = static_cast<std::size_t>(probe_size(bound));
-  // While nothing is known of what jobs cost, the first ones are to tell.
-  if (rates.empty() && !live_.empty()) return false;
-  if (job_cost_s_ && !rates.empty()) {
-    const double wished =
-        free_tasks * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
-    most_jobs = static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
-  }
-  const auto batch = batches_.claim(filter_, most_jobs);
+  const auto batch = batches_.claim(filter_, choose_job_count(bound, are_costs_known));
   if (!batch) return false;
   Live& live = add_batch(*batch);
   double total_s = 0.0;
@@ -348,6 +355,13 @@ bool SlurmExecutor::take_batch(int free_tasks, Clock::time_point now) {
   job_cost_s_ = std::max(1e-6, total_s / static_cast<double>(live.costs_s.size()));
   submit(live, plan_unassigned(live, bound), now);
   return true;
+}
+
+std::size_t SlurmExecutor::choose_job_count(const TaskBounds& bound, bool are_costs_known) const {
+  if (!job_cost_s_ || !are_costs_known) return static_cast<std::size_t>(probe_size(bound));
+  const double wished =
+      bound.most_tasks * std::max(site_.task_s, site_.least_task_s) * site_.threads / *job_cost_s_;
+  return static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
 }
 
 /// Whether nothing is left of a batch, here and in Slurm; then it is forgotten.

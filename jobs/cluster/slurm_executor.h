@@ -63,9 +63,14 @@ class SlurmExecutor : public Executor {
   void fail(Live& live, const std::vector<LostJob>& jobs);
   void submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_point now);
   void submit_generation(Live& live, const std::vector<TaskPlan>& tasks, Clock::time_point now);
+  [[nodiscard]] ArrayOrder order_of(const Live& live, int generation,
+                                    const std::vector<TaskPlan>& tasks) const;
+  static void pause_after_refusal(Live& live, int generation, Clock::time_point now);
   [[nodiscard]] double time_limit_s(const Live& live, const std::vector<TaskPlan>& tasks) const;
   void take_jobs(Clock::time_point now);
   bool take_batch(int free_tasks, Clock::time_point now);
+  /// Jobs that fill so many tasks. @param are_costs_known  whether jobs have been computed before
+  [[nodiscard]] std::size_t choose_job_count(const TaskBounds& bound, bool are_costs_known) const;
   Live& add_batch(const BatchRow& row);
   void prepare(const Live& live) const;
   [[nodiscard]] static std::vector<TaskPlan> plan_unassigned(const Live& live, const TaskBounds& bound);

@@ -17,9 +17,19 @@ std::optional<int> to_int(std::string_view text) {
                                                                                 : std::nullopt;
 }
 
+/// Takes the next line off a text.
+std::string_view take_line(std::string_view& text) {
+  const auto end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+using ReportFields = std::array<std::string_view, kFields>;
+
 /// The last field takes what is left, whatever it holds.
-std::optional<std::array<std::string_view, kFields>> split_fields(std::string_view line) {
-  std::array<std::string_view, kFields> fields;
+std::optional<ReportFields> split_fields(std::string_view line) {
+  ReportFields fields;
   for (std::size_t i = 0; i + 1 < kFields; ++i) {
     const auto bar = line.find('|');
     if (bar == std::string_view::npos) return std::nullopt;
@@ -28,6 +38,20 @@ std::optional<std::array<std::string_view, kFields>> split_fields(std::string_vi
   }
   fields.back() = line;
   return fields;
+}
+
+/// Whether all tasks of an array were cancelled before they began: nothing is said of any one of them.
+bool is_cancelled_array(const ReportFields& fields) {
+  return fields[2] == "N/A" && !is_alive(phase_of(fields[3]));
+}
+
+TaskReport report_of(const ReportFields& fields, int cpus) {
+  return {.phase = phase_of(fields[3]),
+          .word = std::string(fields[3]),
+          .array_job = std::string(fields[1]),
+          .cpus = cpus,
+          .node = std::string(fields[5]),
+          .reason = std::string(fields[6])};
 }
 
 }  // namespace
@@ -91,19 +115,14 @@ bool TaskReport::needs_human() const {
 std::optional<Reports> parse_reports(std::string_view text) {
   Reports reports;
   while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = take_line(text);
     if (line.empty()) continue;
     const auto fields = split_fields(line);
-    // An array whose tasks were all cancelled before they began: nothing is said of any one of them.
-    if (fields && (*fields)[2] == "N/A" && !is_alive(phase_of((*fields)[3]))) continue;
+    if (fields && is_cancelled_array(*fields)) continue;
     const auto index = fields ? to_int((*fields)[2]) : std::nullopt;
     const auto cpus = fields ? to_int((*fields)[4]) : std::nullopt;
     if (!index || !cpus || (*fields)[0].empty() || (*fields)[3].empty()) return std::nullopt;
-    TaskReport report{.phase = phase_of((*fields)[3]), .word = std::string((*fields)[3]),
-                      .array_job = std::string((*fields)[1]), .cpus = *cpus,
-                      .node = std::string((*fields)[5]), .reason = std::string((*fields)[6])};
+    TaskReport report = report_of(*fields, *cpus);
     const auto [known, is_new] = reports[std::string((*fields)[0])].try_emplace(*index, report);
     if (!is_new && !is_alive(known->second.phase)) known->second = std::move(report);
   }
