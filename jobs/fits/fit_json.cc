@@ -231,6 +231,22 @@ ResultTable fit_point_table(const StudyRow& row, const FitProblem& problem, cons
   return table;
 }
 
+namespace {
+
+void add_signal_rows(const FitRun& run, const FitSignal& signal, const Prediction& prediction,
+                     ResultTable& table) {
+  const std::vector<const char*> uses = uses_of(signal.measured);
+  const std::size_t step = (uses.size() + kMostSignalRows - 1) / kMostSignalRows;
+  for (std::size_t k = 0; k < uses.size(); k += step) {
+    const double measured = prediction.measured[k];
+    const double predicted = prediction.predicted[k];
+    table.rows.push_back({run.measurement_id, run.number, signal.channel, uses[k], prediction.t[k], measured,
+                          predicted, predicted - measured});
+  }
+}
+
+}  // namespace
+
 const std::vector<std::string>& fit_signal_columns() {
   static const std::vector<std::string> columns{"measurement_id", "run",       "channel", "use", "t_s",
                                                 "measured",       "predicted", "residual"};
@@ -244,16 +260,7 @@ ResultTable fit_signal_table(const StudyRow& row, const FitObserver& observer, c
   const FitPointSummary& best = summary.points[*summary.best];
   for (const FitSignal& signal : problem.signals) {
     const auto prediction = observer.predict(signal, best.point, best.job_ids);
-    if (!prediction) continue;
-    const std::vector<const char*> uses = uses_of(signal.measured);
-    const FitRun& run = problem.runs[signal.run];
-    const std::size_t step = (uses.size() + kMostSignalRows - 1) / kMostSignalRows;
-    for (std::size_t k = 0; k < uses.size(); k += step) {
-      const double measured = prediction->measured[k];
-      const double predicted = prediction->predicted[k];
-      table.rows.push_back({run.measurement_id, run.number, signal.channel, uses[k], prediction->t[k],
-                            measured, predicted, predicted - measured});
-    }
+    if (prediction) add_signal_rows(problem.runs[signal.run], signal, *prediction, table);
   }
   return table;
 }

@@ -78,6 +78,18 @@ FeatureOptions options_of(const FitSignal& signal) {
           .bands = static_cast<std::size_t>(std::clamp(octaves, 0.0, kMostOctaves))};
 }
 
+/// Predicted signal of each point, over sigma. @param first  residual of the signal
+std::vector<std::vector<double>> predictions_of(const FitSignal& signal, std::size_t first,
+                                                const std::vector<std::vector<double>>& residuals) {
+  std::vector<std::vector<double>> predictions;
+  for (const std::vector<double>& one : residuals) {
+    auto& prediction = predictions.emplace_back();
+    for (std::size_t k = 0; k < signal.compared.t.size(); ++k)
+      prediction.push_back(one[first + k] + signal.compared.y[k] / *signal.compared.sigma);
+  }
+  return predictions;
+}
+
 /// Whether the compared samples are some cycles long, and dense enough.
 bool has_features(const FitSignal& signal) {
   const auto& t = signal.compared.t;
@@ -236,13 +248,7 @@ SignalDivergence FitObserver::judge(const std::vector<std::vector<double>>& resi
       first += count;
       continue;
     }
-    std::vector<std::vector<double>> trajectories;
-    for (const std::vector<double>& one : residuals) {
-      auto& trajectory = trajectories.emplace_back();
-      for (std::size_t k = 0; k < count; ++k)
-        trajectory.push_back(one[first + k] + signal.compared.y[k] / *signal.compared.sigma);
-    }
-    const SignalDivergence divergence = judge_divergence(trajectories);
+    const SignalDivergence divergence = judge_divergence(predictions_of(signal, first, residuals));
     if (largest.message.empty() || divergence.ratio > largest.ratio) largest = divergence;
     first += count;
   }

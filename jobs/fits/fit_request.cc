@@ -84,11 +84,19 @@ class FitParser : private FittedMeasurementsParser {
     made_.population = read_integer("population", kFitPopulationRange, std::min(10 + 5 * n, most));
     if (made_.population > most)
       fault("/population", "must be at most " + std::to_string(most) + ", a quarter of the budget");
+    read_basis();
+    read_intervals();
+  }
+
+  void read_basis() {
     const json basis = request_.value("basis", ordered_json("by_divergence"));
     if (basis == "point_wise") made_.basis = FitBasis::kPointWise;
     else if (basis == "features") made_.basis = FitBasis::kFeatures;
     else if (basis != "by_divergence")
       fault("/basis", "must be \"by_divergence\", \"point_wise\" or \"features\"");
+  }
+
+  void read_intervals() {
     const json intervals = request_.value("intervals", ordered_json("profile"));
     made_.profiles = intervals == "profile";
     if (intervals != "profile" && intervals != "linearised")
@@ -185,9 +193,8 @@ class FitParser : private FittedMeasurementsParser {
     throw std::logic_error("a fit has no such run");
   }
 
-  /// Gives each run values of all paths that some run has its own value of: rows of a sweep have one list of
-  /// paths.
-  void add_parameters_of_runs() {
+  /// Paths that some run has its own value of.
+  [[nodiscard]] std::vector<std::string> list_paths_of_runs() const {
     std::vector<std::string> paths;
     const auto add_path = [&](const std::string& path) {
       if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
@@ -196,6 +203,13 @@ class FitParser : private FittedMeasurementsParser {
       for (const std::string& path : paths_of(ordered_json(measured_run(k).parameters))) add_path(path);
     for (const FitParameter& parameter : made_.parameters)
       if (parameter.run) add_path(parameter.name);
+    return paths;
+  }
+
+  /// Gives each run values of all paths that some run has its own value of: rows of a sweep have one list of
+  /// paths.
+  void add_parameters_of_runs() {
+    std::vector<std::string> paths = list_paths_of_runs();
     const auto is_of_all = [&](const std::string& path) {
       return std::ranges::any_of(made_.parameters, [&](const FitParameter& one) {
         return !one.sensor && !one.run && one.name == path;
@@ -345,7 +359,6 @@ class FitParser : private FittedMeasurementsParser {
     return 2.0 * turn < length ? turn : length / kCyclesOfOther;
   }
 
-  /// Thins the samples that are compared.
   void check_signals() {
     std::size_t samples = 0;
     for (const FitSignal& signal : made_.signals)
@@ -356,6 +369,11 @@ class FitParser : private FittedMeasurementsParser {
                        " samples to be fitted between 0 s and the end of the jobs; more than " +
                        std::to_string(made_.parameters.size()) + " are needed");
     made_.thinning = (samples + most_samples_ - 1) / most_samples_;
+    thin_signals();
+  }
+
+  /// Chooses the samples that are compared.
+  void thin_signals() {
     for (FitSignal& signal : made_.signals) {
       signal.compared.sigma = signal.measured.sigma;
       const auto fitted = select_samples(signal.measured, Samples::kFitted);

@@ -338,9 +338,7 @@ void FitSampler::begin_scan() {
   summary_.stage = FitStage::kScan;
   scan_.clear();
   const std::size_t n = best_.size();
-  const std::size_t allowed = (global_limit_ - std::min(global_limit_, summary_.points.size())) / n;
-  const std::size_t values =
-      std::min(allowed, std::clamp(kScanPoints / n, kFewestScanValues, kMostScanValues));
+  const std::size_t values = count_scan_values();
   if (values < 2) return end_search();
   for (std::size_t k = 0; k < values; ++k) {
     const UnitPoint parts(n, (static_cast<double>(k) + 0.5) / static_cast<double>(values));
@@ -350,6 +348,12 @@ void FitSampler::begin_scan() {
       scan_.back()[i] = even[i];
     }
   }
+}
+
+std::size_t FitSampler::count_scan_values() const {
+  const std::size_t n = best_.size();
+  const std::size_t allowed = (global_limit_ - std::min(global_limit_, summary_.points.size())) / n;
+  return std::min(allowed, std::clamp(kScanPoints / n, kFewestScanValues, kMostScanValues));
 }
 
 FitSampler::Points FitSampler::run_scan() {
@@ -383,37 +387,49 @@ void FitSampler::end_search() {
 }
 
 FitSampler::Points FitSampler::run_profile() {
-  LeastSquaresOptions refit = local_options();
-  refit.max_iterations = kRefitIterations;
+  const ProfileProblem profile = profile_problem();
   while (true) {
-    const ProfileProblem profile{.spans = spans_of(problem_),
-                                 .best = *local_,
-                                 .intervals = *summary_.intervals,
-                                 .refit = refit,
-                                 .max_values = kProfileValues};
     ProfileAnswer answer = profile_likelihood(profile, evaluations_);
     if (answer.result) {
-      for (const ProfileInterval& interval : *answer.result) {
-        if (!interval.better || restarts_ >= kMostRestarts) continue;
-        ++restarts_;
-        begin_local(*interval.better, pass_);
-        return {};
-      }
-      summary_.profiles = std::move(*answer.result);
-      extend_profiles();
-      summary_.stage = FitStage::kPrediction;
+      end_profile(std::move(*answer.result));
       return {};
     }
     Points missing = tell_least_squares(answer.points);
     if (missing.empty()) continue;
     if (summary_.points.size() < problem_.budget) return missing;
-    summary_.remarks.emplace_back(
-        "The budget ended before the profile likelihood was there: the ranges are those of points that the "
-        "signals hardly tell from the best one.");
-    summary_.ranges = find_ranges();
-    summary_.stage = FitStage::kPrediction;
+    give_profile_up();
     return {};
   }
+}
+
+ProfileProblem FitSampler::profile_problem() const {
+  LeastSquaresOptions refit = local_options();
+  refit.max_iterations = kRefitIterations;
+  return {.spans = spans_of(problem_),
+          .best = *local_,
+          .intervals = *summary_.intervals,
+          .refit = refit,
+          .max_values = kProfileValues};
+}
+
+/// Takes the profiles, or begins again from a better point that they have met.
+void FitSampler::end_profile(std::vector<ProfileInterval> profiles) {
+  const auto better = std::ranges::find_if(profiles, [](const auto& one) { return one.better.has_value(); });
+  if (better != profiles.end() && restarts_ < kMostRestarts) {
+    ++restarts_;
+    return begin_local(*better->better, pass_);
+  }
+  summary_.profiles = std::move(profiles);
+  extend_profiles();
+  summary_.stage = FitStage::kPrediction;
+}
+
+void FitSampler::give_profile_up() {
+  summary_.remarks.emplace_back(
+      "The budget ended before the profile likelihood was there: the ranges are those of points that the "
+      "signals hardly tell from the best one.");
+  summary_.ranges = find_ranges();
+  summary_.stage = FitStage::kPrediction;
 }
 
 void FitSampler::run_prediction(NextCases& next) {

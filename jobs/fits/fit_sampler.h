@@ -57,6 +57,9 @@ class FitSampler final : public StudySampler {
   Points run_local();
   Points run_scan();
   Points run_profile();
+  [[nodiscard]] ProfileProblem profile_problem() const;
+  void end_profile(std::vector<ProfileInterval> profiles);
+  void give_profile_up();
   void run_prediction(NextCases& next);
 
   void begin_global();
@@ -70,6 +73,7 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] bool gains_since(const FitPoint& earlier);
   void weigh_signals(const FitPoint& point);
   void begin_scan();
+  [[nodiscard]] std::size_t count_scan_values() const;  ///< of each parameter
   /// Another search, or the last least squares.
   void end_search();
   /// After the search that shows of which kind the measured motion is.
@@ -82,6 +86,10 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] std::optional<SignalDivergence> judge_divergence_at(const FitPoint& centre);
   /// Points of the design whose features are nearest to the measured ones; fewer if fewer have succeeded.
   [[nodiscard]] Points nearest_by_features(std::size_t count) const;
+  /// Features of those of some points that have succeeded.
+  [[nodiscard]] std::vector<std::vector<double>> features_of(const Points& points) const;
+  /// Sets the scale of each feature by how much it scatters.
+  void set_feature_scale(const std::vector<std::vector<double>>& replicates);
   /// Sums of all points by features and their scale.
   void sum_features();
   void end_pass(const LeastSquaresResult& result);
@@ -102,6 +110,7 @@ class FitSampler final : public StudySampler {
   void update_point(std::size_t index);
   void lose(std::size_t index, std::string reason);
   void take(std::size_t index, Observation observation);
+  void keep_residuals(const FitPointSummary& point, std::vector<double> residuals);
   [[nodiscard]] NextCases end_if_nothing_waits(NextCases next);
 
   [[nodiscard]] Points missing_of(const Points& points) const;
@@ -111,6 +120,9 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] Points replicates_of(const FitPoint& point) const;
   /// Residuals as the basis has them; empty if the jobs have failed.
   [[nodiscard]] std::optional<std::vector<double>> residuals_of(const FitPoint& point);
+  [[nodiscard]] std::optional<std::vector<double>> point_wise_residuals_of(const FitPoint& point) const;
+  /// Mean features of a point and its replicates; empty if all have failed.
+  [[nodiscard]] std::optional<std::vector<double>> mean_features_of(const FitPoint& point) const;
   [[nodiscard]] std::vector<double> feature_residuals(const std::vector<double>& features) const;
   /// @throws std::runtime_error if the trajectories cannot be read again
   [[nodiscard]] std::vector<double> residuals_of_best();
@@ -122,6 +134,8 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] bool is_as_good(const FitPointSummary& point) const;
   /// Ranges of the points about as good as the best one, and of the linearised intervals.
   [[nodiscard]] std::vector<ValueRange> find_ranges() const;
+  /// Ranges of the points about as good as the best one alone.
+  [[nodiscard]] std::vector<ValueRange> find_ranges_of_points() const;
   /// A point below the threshold of a profile lies in its interval, wherever the refits went.
   void extend_profiles();
   /// Tells the least squares points that are there. @returns those that are not

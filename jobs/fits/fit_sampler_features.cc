@@ -33,6 +33,18 @@ constexpr double kLeastFeatureScale = 0.02;
 constexpr std::size_t kMostFeatureScan = 400;
 constexpr double kScanReach = 3.0;  ///< of the scan by features, over that of the linearised intervals
 
+/// Squared distance of two columns that is above those of 95 % of the pairs; 0: there is no pair.
+double find_large_distance(const Eigen::MatrixXd& columns) {
+  std::vector<double> pairs;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    for (Eigen::Index k = 0; k < i; ++k)
+      pairs.push_back((columns.col(i) - columns.col(k)).squaredNorm());
+  if (pairs.empty()) return 0.0;
+  const auto place = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(pairs.size() - 1));
+  std::ranges::nth_element(pairs, pairs.begin() + place);
+  return pairs[static_cast<std::size_t>(place)];
+}
+
 }  // namespace
 
 /// Point by point, quiet motions are nearer to a chaotic measurement than those of its kind. Their features
@@ -133,18 +145,10 @@ FitSampler::Points FitSampler::run_scatter() {
   Points missing = missing_of(points);
   if (!missing.empty()) return missing;
   points.resize(kScatterReplicates);
-  std::vector<std::vector<double>> replicates{features_.at(centre)};
-  for (const FitPoint& point : points)
-    if (const auto found = features_.find(point); found != features_.end())
-      replicates.push_back(found->second);
+  std::vector<std::vector<double>> replicates = features_of(points);
+  replicates.insert(replicates.begin(), features_.at(centre));
   if (replicates.size() > 1) {
-    const FeatureScatter scatter = calc_scatter(replicates);
-    const double mean_of = 1.0 + 1.0 / static_cast<double>(problem_.replicates);
-    for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
-      const double least = kLeastFeatureScale * std::abs(observer_->measured_features()[k]);
-      const double known = population_ ? feature_scale_[k] : std::numeric_limits<double>::min();
-      feature_scale_[k] = std::max({scatter.deviation[k] * std::sqrt(mean_of), least, known});
-    }
+    set_feature_scale(replicates);
     sum_features();
     if (!population_) choose_best(base_points_);
   }
@@ -153,11 +157,27 @@ FitSampler::Points FitSampler::run_scatter() {
   return {};
 }
 
+std::vector<std::vector<double>> FitSampler::features_of(const Points& points) const {
+  std::vector<std::vector<double>> features;
+  for (const FitPoint& point : points)
+    if (const auto found = features_.find(point); found != features_.end()) features.push_back(found->second);
+  return features;
+}
+
+void FitSampler::set_feature_scale(const std::vector<std::vector<double>>& replicates) {
+  const FeatureScatter scatter = calc_scatter(replicates);
+  const double mean_of = 1.0 + 1.0 / static_cast<double>(problem_.replicates);
+  for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
+    const double least = kLeastFeatureScale * std::abs(observer_->measured_features()[k]);
+    const double known = population_ ? feature_scale_[k] : std::numeric_limits<double>::min();
+    feature_scale_[k] = std::max({scatter.deviation[k] * std::sqrt(mean_of), least, known});
+  }
+}
+
 Eigen::MatrixXd FitSampler::residuals_of_replicates() const {
   std::vector<std::vector<double>> all;
-  for (const FitPoint& replicate : replicates_of(best_))
-    if (const auto found = features_.find(replicate); found != features_.end())
-      all.push_back(feature_residuals(found->second));
+  for (const std::vector<double>& features : features_of(replicates_of(best_)))
+    all.push_back(feature_residuals(features));
   const auto rows = static_cast<Eigen::Index>(feature_scale_.size());
   Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(all.size()));
   for (Eigen::Index k = 0; k < columns.cols(); ++k)
@@ -188,17 +208,8 @@ void FitSampler::begin_feature_scan() {
 /// where that is quieter than the one of the scales, as such pairs do in the mean; or about as much as those
 /// of the best itself, which is chosen because they differ little.
 void FitSampler::end_features() {
-  const Eigen::MatrixXd replicates = residuals_of_replicates();
   most_feature_sum_ = 2.0 * static_cast<double>(feature_scale_.size());
-  std::vector<double> pairs;
-  for (Eigen::Index i = 0; i < replicates.cols(); ++i)
-    for (Eigen::Index k = 0; k < i; ++k)
-      pairs.push_back((replicates.col(i) - replicates.col(k)).squaredNorm());
-  if (!pairs.empty()) {
-    const auto place = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(pairs.size() - 1));
-    std::ranges::nth_element(pairs, pairs.begin() + place);
-    most_feature_sum_ = std::max(most_feature_sum_, pairs[static_cast<std::size_t>(place)]);
-  }
+  most_feature_sum_ = std::max(most_feature_sum_, find_large_distance(residuals_of_replicates()));
   most_feature_sum_ = std::max(most_feature_sum_, kAsGood * kAsGood * local_->sum);
   summary_.ranges = find_ranges();
   for (std::size_t i = 0; i < summary_.ranges.size(); ++i)

@@ -126,28 +126,35 @@ void FitSampler::take(std::size_t index, Observation observation) {
       sum_of_squares(is_point_wise() ? observation.residuals : feature_residuals(features_.at(point.point)));
   if (is_point_wise()) point.deviations = observer_->calc_deviations(observation.residuals);
   point.loss = is_point_wise() ? observer_->calc_loss(point.deviations) : *point.sum;
-  if (!is_point_wise()) return;
+  if (is_point_wise()) keep_residuals(point, std::move(observation.residuals));
+}
+
+/// Searches need the residuals of their best point alone.
+void FitSampler::keep_residuals(const FitPointSummary& point, std::vector<double> residuals) {
   if (summary_.stage != FitStage::kLocal && summary_.stage != FitStage::kProfile &&
       summary_.stage != FitStage::kDivergence) {
     if (!(point.loss < least_loss_)) return;
     least_loss_ = point.loss;
     residuals_.clear();
   }
-  residuals_.insert_or_assign(point.point, std::move(observation.residuals));
+  residuals_.insert_or_assign(point.point, std::move(residuals));
 }
 
 std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& point) {
-  const std::size_t index = indices_.at(point);
-  if (is_point_wise()) {
-    if (summary_.points[index].state != FitPointState::kSucceeded) return std::nullopt;
-    const auto found = residuals_.find(point);
-    if (found == residuals_.end()) {
-      auto again = observer_->observe(point, summary_.points[index].job_ids, FitObserver::Wanted::kResiduals);
-      if (!again) return std::nullopt;
-      return std::move(again->residuals);
-    }
-    return found->second;
-  }
+  if (is_point_wise()) return point_wise_residuals_of(point);
+  const auto mean = mean_features_of(point);
+  return mean ? std::optional(feature_residuals(*mean)) : std::nullopt;
+}
+
+std::optional<std::vector<double>> FitSampler::point_wise_residuals_of(const FitPoint& point) const {
+  const FitPointSummary& summary = summary_.points[indices_.at(point)];
+  if (summary.state != FitPointState::kSucceeded) return std::nullopt;
+  if (const auto found = residuals_.find(point); found != residuals_.end()) return found->second;
+  auto again = observer_->observe(point, summary.job_ids, FitObserver::Wanted::kResiduals);
+  return again ? std::optional(std::move(again->residuals)) : std::nullopt;
+}
+
+std::optional<std::vector<double>> FitSampler::mean_features_of(const FitPoint& point) const {
   std::vector<double> mean(feature_scale_.size(), 0.0);
   double count = 0.0;
   for (const FitPoint& replicate : replicates_of(point)) {
@@ -158,7 +165,7 @@ std::optional<std::vector<double>> FitSampler::residuals_of(const FitPoint& poin
   }
   if (count == 0.0) return std::nullopt;
   for (double& value : mean) value /= count;
-  return feature_residuals(mean);
+  return mean;
 }
 
 std::vector<double> FitSampler::residuals_of_best() {
@@ -200,7 +207,7 @@ bool FitSampler::is_as_good(const FitPointSummary& point) const {
   return true;
 }
 
-std::vector<ValueRange> FitSampler::find_ranges() const {
+std::vector<ValueRange> FitSampler::find_ranges_of_points() const {
   std::vector<ValueRange> ranges;
   for (const double value : best_) ranges.push_back({value, value});
   for (const FitPointSummary& point : summary_.points) {
@@ -210,6 +217,11 @@ std::vector<ValueRange> FitSampler::find_ranges() const {
       ranges[i].high = std::max(ranges[i].high, point.point[i]);
     }
   }
+  return ranges;
+}
+
+std::vector<ValueRange> FitSampler::find_ranges() const {
+  std::vector<ValueRange> ranges = find_ranges_of_points();
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const Estimate& interval = summary_.intervals->parameters[i];
     const Span& span = problem_.parameters[i].span;

@@ -11,6 +11,18 @@ namespace jobs {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+namespace {
+
+/// Window of two ascending times.
+std::optional<TimeWindow> window_of(const json& given) {
+  const bool right = given.is_array() && given.size() == 2 && given[0].is_number() && given[1].is_number() &&
+                     given[0].get<double>() < given[1].get<double>();
+  if (!right) return std::nullopt;
+  return TimeWindow{.from_s = given[0].get<double>(), .to_s = given[1].get<double>()};
+}
+
+}  // namespace
+
 void FittedMeasurementsParser::read_measurements() {
   const json given = request_.value("measurements", ordered_json());
   if (!given.is_array() || given.empty() || given.size() > kMostFittedMeasurements)
@@ -31,6 +43,13 @@ void FittedMeasurementsParser::read_measurement(const json& given, const std::st
   one.pointer = pointer;
   one.measurement = std::move(*found);
   one.id = id.get<std::string>();
+  read_selection(given, one);
+  read_channels(given, one);
+  measurements_.push_back(std::move(one));
+}
+
+void FittedMeasurementsParser::read_selection(const json& given, FittedMeasurement& one) {
+  const std::string& pointer = one.pointer;
   one.runs = read_runs(given, pointer, "runs", one.measurement.runs.size(), true);
   for (const std::size_t run :
        read_runs(given, pointer, "held_back_runs", one.measurement.runs.size(), false)) {
@@ -43,8 +62,6 @@ void FittedMeasurementsParser::read_measurement(const json& given, const std::st
   if (given.contains("time_shift_s") &&
       is_right(pointer + "/time_shift_s", describe_number_fault({}, "s", given.at("time_shift_s"))))
     one.time_shift_s = given.at("time_shift_s").get<double>();
-  read_channels(given, one);
-  measurements_.push_back(std::move(one));
 }
 
 std::vector<std::size_t> FittedMeasurementsParser::read_runs(const json& given, const std::string& pointer,
@@ -55,13 +72,19 @@ std::vector<std::size_t> FittedMeasurementsParser::read_runs(const json& given, 
     return runs;
   }
   const json& list = given.at(key);
-  const Range range{.minimum = 0.0, .maximum = static_cast<double>(count - 1)};
   if (!list.is_array() || (all && list.empty())) {
     fault(pointer + "/" + key, "must be a list of numbers of runs, from 0 to " + std::to_string(count - 1));
     return runs;
   }
+  return read_run_list(list, pointer + "/" + key, count);
+}
+
+std::vector<std::size_t> FittedMeasurementsParser::read_run_list(const json& list, const std::string& pointer,
+                                                                 std::size_t count) {
+  const Range range{.minimum = 0.0, .maximum = static_cast<double>(count - 1)};
+  std::vector<std::size_t> runs;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::string place = pointer + "/" + key + "/" + std::to_string(k);
+    const std::string place = pointer + "/" + std::to_string(k);
     if (!is_right(place, describe_integer_fault(range, list[k]))) continue;
     const auto run = list[k].get<std::size_t>();
     if (std::ranges::find(runs, run) != runs.end()) fault(place, "is in the list already");
@@ -80,10 +103,7 @@ std::vector<TimeWindow> FittedMeasurementsParser::read_windows(const json& given
     return windows;
   }
   for (std::size_t k = 0; k < list.size(); ++k) {
-    const json& window = list[k];
-    const bool right = window.is_array() && window.size() == 2 && window[0].is_number() &&
-                       window[1].is_number() && window[0].get<double>() < window[1].get<double>();
-    if (right) windows.push_back({.from_s = window[0].get<double>(), .to_s = window[1].get<double>()});
+    if (const auto window = window_of(list[k])) windows.push_back(*window);
     else fault(pointer + "/" + key + "/" + std::to_string(k), "must be two ascending times, [0, 2], say");
   }
   return windows;
@@ -99,21 +119,19 @@ void FittedMeasurementsParser::read_channels(const json& given, FittedMeasuremen
   for (const MeasuredChannel& channel : one.measurement.channels) known.push_back(channel.name);
   for (const auto& [name, options] : channels.items()) {
     const std::string place = pointer + pointer_token(name);
-    if (std::ranges::find(known, name) == known.end()) {
-      fault(place, describe_unknown_key(name, known));
-      continue;
-    }
-    if (!options.is_object()) {
-      fault(place, "must be an object of weight and noise");
-      continue;
-    }
-    check_keys_of(options, place, kFittedChannelKeys);
-    for (const std::string_view key : kFittedChannelKeys) {
-      const Range above_0{.minimum = 0.0, .lower = Bound::kExclusive};
-      if (options.contains(key))
-        is_right(place + "/" + std::string(key), describe_number_fault(above_0, "", options.at(key)));
-    }
+    if (std::ranges::find(known, name) == known.end()) fault(place, describe_unknown_key(name, known));
+    else check_channel_options(options, place);
     one.channels[name] = options;
+  }
+}
+
+void FittedMeasurementsParser::check_channel_options(const json& options, const std::string& pointer) {
+  if (!options.is_object()) return fault(pointer, "must be an object of weight and noise");
+  check_keys_of(options, pointer, kFittedChannelKeys);
+  for (const std::string_view key : kFittedChannelKeys) {
+    const Range above_0{.minimum = 0.0, .lower = Bound::kExclusive};
+    if (options.contains(key))
+      is_right(pointer + "/" + std::string(key), describe_number_fault(above_0, "", options.at(key)));
   }
 }
 

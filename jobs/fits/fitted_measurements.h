@@ -53,11 +53,16 @@ class FittedMeasurementsParser : protected RequestParser {
 
  private:
   void read_measurement(const nlohmann::json& given, const std::string& pointer);
+  /// Reads the runs and windows that are compared.
+  void read_selection(const nlohmann::json& given, FittedMeasurement& one);
   [[nodiscard]] std::vector<std::size_t> read_runs(const nlohmann::json& given, const std::string& pointer,
                                                    const char* key, std::size_t count, bool all);
+  [[nodiscard]] std::vector<std::size_t> read_run_list(const nlohmann::json& list, const std::string& pointer,
+                                                       std::size_t count);
   [[nodiscard]] std::vector<TimeWindow> read_windows(const nlohmann::json& given, const std::string& pointer,
                                                      const char* key);
   void read_channels(const nlohmann::json& given, FittedMeasurement& one);
+  void check_channel_options(const nlohmann::json& options, const std::string& pointer);
 
   const FindMeasurement& find_measurement_;
 };

@@ -32,12 +32,7 @@ class PathCost final : public ceres::CostFunction {
     const auto n = static_cast<Eigen::Index>(path_.free().size());
     const Eigen::VectorXd parts = Eigen::Map<const Eigen::VectorXd>(parameters[0], n);
     Eigen::Map<Eigen::VectorXd> out(residuals, num_residuals());
-    if (jacobians == nullptr || jacobians[0] == nullptr) {
-      Eigen::VectorXd at;
-      if (path_.try_step(parts, at) != FitPath::Step::kEvaluated) return false;
-      out = at;
-      return true;
-    }
+    if (jacobians == nullptr || jacobians[0] == nullptr) return evaluate_step(parts, out);
     Eigen::Map<RowMajor> jacobian(jacobians[0], num_residuals(), n);
     // Ceres logs a missing Jacobian, even if it is to be silent. With zeros it ends at once.
     if (path_.accept(parts) != FitPath::Step::kEvaluated) {
@@ -51,6 +46,13 @@ class PathCost final : public ceres::CostFunction {
   }
 
  private:
+  bool evaluate_step(const Eigen::VectorXd& parts, Eigen::Map<Eigen::VectorXd>& out) const {
+    Eigen::VectorXd residuals;
+    if (path_.try_step(parts, residuals) != FitPath::Step::kEvaluated) return false;
+    out = residuals;
+    return true;
+  }
+
   FitPath& path_;
 };
 
@@ -81,6 +83,13 @@ ceres::Solver::Options make_solver_options(const LeastSquaresOptions& options) {
   return solver;
 }
 
+void set_bounds(Eigen::VectorXd& parts, ceres::Problem& problem) {
+  for (int k = 0; k < static_cast<int>(parts.size()); ++k) {
+    problem.SetParameterLowerBound(parts.data(), k, 0.0);
+    problem.SetParameterUpperBound(parts.data(), k, 1.0);
+  }
+}
+
 ceres::Solver::Summary run_ceres(FitPath& path, const LeastSquaresOptions& options, std::size_t residuals) {
   Eigen::VectorXd parts = path.start();
   PathCost cost(path, residuals);
@@ -89,10 +98,7 @@ ceres::Solver::Summary run_ceres(FitPath& path, const LeastSquaresOptions& optio
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
   problem.AddResidualBlock(&cost, nullptr, parts.data());
-  for (int k = 0; k < static_cast<int>(parts.size()); ++k) {
-    problem.SetParameterLowerBound(parts.data(), k, 0.0);
-    problem.SetParameterUpperBound(parts.data(), k, 1.0);
-  }
+  set_bounds(parts, problem);
   ceres::Solver::Options solver = make_solver_options(options);
   solver.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
@@ -117,23 +123,27 @@ void set_end(const ceres::Solver::Summary& summary, const FitPath& path, LeastSq
   }
 }
 
+/// Answer where Ceres has nothing to do: it asks for the start and its derivatives first.
+/// @returns empty once these are there
+std::optional<LeastSquaresAnswer> find_answer_at_start(const LeastSquaresProblem& problem,
+                                                       const Evaluations& evaluations) {
+  FitPath path(problem, evaluations);
+  if (path.accept(path.start()) == FitPath::Step::kEvaluated && !path.free().empty()) return std::nullopt;
+  const bool has_failed = path.stopped() && path.result().end == FitEnd::kStartFailed;
+  if (!path.missing().empty() && !has_failed)
+    return LeastSquaresAnswer{.points = path.missing(), .result = std::nullopt};
+  LeastSquaresAnswer answer{.points = {}, .result = path.result()};
+  answer.result->evaluations = path.count_evaluations();
+  if (answer.result->message.empty()) answer.result->message = "There was no parameter to fit.";
+  return answer;
+}
+
 }  // namespace
 
 LeastSquaresAnswer solve_least_squares(const LeastSquaresProblem& problem, const Evaluations& evaluations) {
+  if (auto answer = find_answer_at_start(problem, evaluations)) return *std::move(answer);
   FitPath path(problem, evaluations);
   LeastSquaresAnswer answer;
-  // Ceres asks for the start and its derivatives first; until they are there it has nothing to do.
-  FitPath first(problem, evaluations);
-  if (first.accept(first.start()) != FitPath::Step::kEvaluated || first.free().empty()) {
-    answer.points = first.missing();
-    if (!answer.points.empty() && !(first.stopped() && first.result().end == FitEnd::kStartFailed))
-      return answer;
-    answer.points.clear();
-    answer.result = first.result();
-    answer.result->evaluations = first.count_evaluations();
-    if (answer.result->message.empty()) answer.result->message = "There was no parameter to fit.";
-    return answer;
-  }
   const ceres::Solver::Summary summary = run_ceres(path, problem.options, evaluations.residual_count());
   if (!path.missing().empty()) {
     answer.points = path.missing();
