@@ -46,6 +46,7 @@ std::string make_fit_request(Bench& bench) {
   const auto stored = bench.call("POST", "/v1/measurements", measurement.dump());
   EXPECT_EQ(stored.status, 201) << stored.body;
   return json{{"over", {{"clearance_mm", {{"from", 0.1}, {"to", 0.5}}}}},
+              {"budget", 250},
               {"parameters", {{"run_up_s", 0.1}}},
               {"measurements", {{{"id", json::parse(stored.body).at("id")}, {"held_back", {{1.2, 1.5}}}}}}}
       .dump();
