@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kTakesPart = 0.1;  // least share of a parameter in a direction
 
-/// J^T J
-Eigen::MatrixXd calc_gram(const Eigen::MatrixXd& jacobian) { return jacobian.transpose() * jacobian; }
+/// factor A^T A
+Eigen::MatrixXd calc_gram(double factor, const Eigen::MatrixXd& A) { return factor * A.transpose() * A; }
 
 /// A M A^T
 Eigen::MatrixXd calc_congruent(const Eigen::MatrixXd& A, const Eigen::MatrixXd& M) {
@@ -57,7 +57,7 @@ SeriesNoise calc_series_noise(const Eigen::MatrixXd& jacobian, const Eigen::Vect
     const auto rows = static_cast<Eigen::Index>(length);
     const Autoregression model = fit_autoregression({residuals.data() + from, length});
     const Eigen::MatrixXd filtered = filter_backwards(jacobian.middleRows(from, rows), model.coefficients);
-    noise.middle += taken * model.innovation * calc_gram(filtered);
+    noise.middle += calc_gram(taken * model.innovation, filtered);
     noise.effective_samples += static_cast<double>(length) / std::max(calc_autocorrelation_time(model), 1.0);
     from += rows;
   }
@@ -69,11 +69,11 @@ SeriesNoise calc_series_noise(const Eigen::MatrixXd& jacobian, const Eigen::Vect
 SeriesNoise calc_replicate_noise(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& replicates) {
   const auto count = static_cast<double>(replicates.cols());
   const Eigen::MatrixXd off = replicates.colwise() - replicates.rowwise().mean().eval();
-  const Eigen::MatrixXd across = off.transpose() * jacobian;
+  const Eigen::MatrixXd scatter_along = off.transpose() * jacobian;
   const double mean_square = off.squaredNorm() / (count - 1.0) / static_cast<double>(off.rows());
   const double factor = (1.0 + 1.0 / count) / (count - 1.0);
-  if (!(mean_square > 0.0)) return {calc_gram(jacobian), count};
-  return {factor * std::max(1.0, 1.0 / mean_square) * calc_gram(across), count};
+  if (!(mean_square > 0.0)) return {calc_gram(1.0, jacobian), count};
+  return {calc_gram(factor * std::max(1.0, 1.0 / mean_square), scatter_along), count};
 }
 
 /// Columns of the directions along which the data do not decide.
@@ -101,7 +101,10 @@ DirectionCovariance calc_direction_covariance(const FitIntervals& intervals, con
   }
   const Eigen::MatrixXd squares = inverse.cwiseAbs2().asDiagonal();
   const double variance = intervals.residual_deviation * intervals.residual_deviation;
-  return {variance * squares, calc_congruent(squares * intervals.directions.transpose(), middle)};
+  const Eigen::MatrixXd left = squares * intervals.directions.transpose();
+  const Eigen::MatrixXd middle_along = left * middle;
+  const Eigen::MatrixXd along = middle_along * intervals.directions;
+  return {variance * squares, along * squares};
 }
 
 void drop_directions(const std::vector<std::size_t>& dropped, Eigen::MatrixXd& covariance) {
@@ -175,12 +178,12 @@ FitIntervals calc_intervals(const Eigen::MatrixXd& jacobian, const Eigen::Vector
   FitIntervals intervals;
   const auto freedom = static_cast<double>(jacobian.rows() - n);
   intervals.residual_deviation = std::sqrt(residuals.squaredNorm() / freedom);
-  // BDCSVD, of the same results, takes the compiler ten seconds more.
+  // BDCSVD takes the compiler ten seconds more, and gains nothing where columns are few.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinV);
   intervals.singular_values = svd.singularValues();
   intervals.directions = svd.matrixV();
   const double variance = intervals.residual_deviation * intervals.residual_deviation;
-  SeriesNoise noise{variance * calc_gram(jacobian), static_cast<double>(jacobian.rows())};
+  SeriesNoise noise{calc_gram(variance, jacobian), static_cast<double>(jacobian.rows())};
   const bool has_replicates = options.replicates.cols() > n;
   if (has_replicates) {
     noise = calc_replicate_noise(jacobian, options.replicates);
@@ -195,7 +198,7 @@ FitIntervals calc_intervals(const Eigen::MatrixXd& jacobian, const Eigen::Vector
   const double fisher = boost::math::quantile(boost::math::fisher_f(parameters, degrees), 0.95);
   intervals.quantile = std::sqrt(hotelling * parameters * fisher);
   const double added = options.misfit / (intervals.quantile * intervals.quantile);
-  noise.middle += added * calc_gram(jacobian);
+  noise.middle += calc_gram(added, jacobian);
   DirectionCovariance along = calc_direction_covariance(intervals, noise.middle);
   intervals.unidentifiable = find_unidentifiable(intervals.singular_values, along.used.diagonal().cwiseSqrt(),
                                                  intervals.quantile, options.least_ratio);
