@@ -80,9 +80,10 @@ Eigen::MatrixXd calc_unit_energies(const Mechanism& m, const Evaluation& assembl
   std::vector<FrameMotion> frames(m.coordinates.size());
   const auto n = static_cast<Eigen::Index>(coordinates.size());
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd qd(none.size());
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = alone ? i : 0; k <= i; ++k) {
-      Eigen::VectorXd qd = none;
+      qd.setZero();
       qd[coordinates[static_cast<std::size_t>(i)]] = 1.0;
       qd[coordinates[static_cast<std::size_t>(k)]] = 1.0;
       calc_frame_motions(m, assembled.q, qd, none, frames);
@@ -150,7 +151,7 @@ void check_moved_masses(const Linkage& linkage, const BuiltLinkage& built,
               ", and nothing that it moves has mass: give the bodies that it carries some, or drive it");
 }
 
-/// Nor may several free coordinates together move nothing that has mass. @param M  of all of them
+/// Several free coordinates together may not move nothing that has mass, either. @param M  of all of them
 void check_mass_matrix(const Eigen::MatrixXd& M) {
   // Least eigenvalue of the matrix with its diagonal scaled to 1: rounding.
   constexpr double kNoneOfThem = 1e-13;

@@ -10,7 +10,7 @@ namespace engine {
 
 namespace {
 
-/// Those of a motor but for its power. @param first  index of the motor's first applied force
+/// Readings of a motor, but for its power. @param first  index of the motor's first applied force
 ActuatorReadings make_motor_readings(FrameIndex winding, Eigen::Index first) {
   ActuatorReadings readings;
   readings.force = [first](const Evaluation& at) {

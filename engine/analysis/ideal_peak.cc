@@ -157,7 +157,7 @@ class IdealPeakSearch {
     const double apart = std::min(kOfInterval * dt, 0.25 * (piece_end_ - piece_start_));
     for (int i = 0; i < kMaxTries; ++i) {
       t = std::clamp(t, piece_start_ + apart, piece_end_ - apart);
-      const double offset = calc_extreme_offset(t, apart);
+      const double offset = probe_extreme_offset(t, apart);
       if (!std::isfinite(offset)) return;
       t = std::clamp(t + apart * std::clamp(offset, -0.5 / kOfInterval, 0.5 / kOfInterval), piece_start_,
                      piece_end_);
@@ -169,7 +169,8 @@ class IdealPeakSearch {
   }
 
   /// Distance from t, over `apart`, of the extreme of the parabola through t and both instants beside it.
-  double calc_extreme_offset(double t, double apart) {
+  /// These count for the peak, too.
+  double probe_extreme_offset(double t, double apart) {
     const double before = probe(t - apart);
     const double middle = probe(t);
     const double after = probe(t + apart);

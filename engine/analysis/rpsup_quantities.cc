@@ -185,7 +185,7 @@ void add_joint_channels(const Rpsup& rpsup, bool clearance, std::vector<Channel>
   add_reaction_channels(channels);
 }
 
-/// Deflections of the flexible links other than the coupler.
+/// Deflections of the flexible links other than the coupler. @param links  must outlive the channels
 void add_deflection_channels(const std::vector<BentLink>& links, std::vector<Channel>& channels) {
   for (const BentLink& link : links)
     add_reading(channels, link.name + "_deflection_mm",

@@ -63,7 +63,7 @@ class SlidingWork {
   /// calc_ring_contacts() had it
   void add(const JointState& joint, double time);
   void add_ring_channels(const std::string& prefix, std::size_t ring, std::vector<Channel>& channels) const;
-  /// Reads a part of a ring's; null without clearance.
+  /// Reading of one part of a ring's work; null without clearance.
   [[nodiscard]] Reading make_reading(std::size_t ring, double Ring::*part) const;
 
   const ClearanceParameters joint_;  ///< c_r = 0: without clearance

@@ -73,7 +73,7 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
   find_active_rows();
 }
 
-/// @param joints  with the clearances that the ideal mechanism has not
+/// Lists rigid rows and their blocks. @param joints  with the clearances that the ideal mechanism has not
 void LoopClosure::list_rigid_rows(const std::vector<CutJoint>& joints) {
   Eigen::Index row = 0;
   for (const CutJoint& joint : joints) {

@@ -276,6 +276,7 @@ bool Integration::try_controlled_step() {
   return true;
 }
 
+/// Checks the local stability where that is due, which may leave the stepper without its matrices.
 /// @param remaining  time up to where the step is to end at the latest, [s]
 double Integration::choose_step(double remaining) {
   if (unstable_mode_limiter_.is_check_due(start_.t))

@@ -279,7 +279,7 @@ class KinematicRun {
     return error;
   }
 
-  /// The same for powers.
+  /// The same for powers; notes the largest one of the block.
   double interpolate_powers() {
     double error = 0.0;
     block_power_ = 0.0;

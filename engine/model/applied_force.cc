@@ -56,34 +56,27 @@ AppliedForceValue to_value(const Derived& d) {
   return {.force = d.value, .by_t = d.by_t, .by_q = {d.by_q, 0.0}, .by_v = {d.by_v, d.by_integral}};
 }
 
-/// What the force of a law is a function of.
-double read_variable(const ForceLaw& law, double t, const ElementState& state) {
+/// What the force of a law is a function of, and the derivative by that.
+struct LawArgument {
+  double value;
+  double* slope;
+};
+
+LawArgument argument_of(const ForceLaw& law, double t, const ElementState& state, AppliedForceValue& force) {
   switch (law.variable) {
-    case ForceLaw::Variable::kTime:
-      return t;
-    case ForceLaw::Variable::kPosition:
-      return state.q;
-    case ForceLaw::Variable::kVelocity:
-      return state.v;
+    case ForceLaw::Variable::kTime: return {t, &force.by_t};
+    case ForceLaw::Variable::kPosition: return {state.q, &force.by_q[0]};
+    case ForceLaw::Variable::kVelocity: break;
   }
-  return t;
+  return {state.v, &force.by_v[0]};
 }
 
 void calc_forces(const ForceLaw& law, double t, const ElementState& state, AppliedForceValue* values) {
-  const SignalPoint point = calc_signal(law.law, read_variable(law, t, state));
-  AppliedForceValue& value = values[0];
-  value = {.force = point.value};
-  switch (law.variable) {
-    case ForceLaw::Variable::kTime:
-      value.by_t = point.slope;
-      return;
-    case ForceLaw::Variable::kPosition:
-      value.by_q[0] = point.slope;
-      return;
-    case ForceLaw::Variable::kVelocity:
-      value.by_v[0] = point.slope;
-      return;
-  }
+  values[0] = {};
+  const LawArgument argument = argument_of(law, t, state, values[0]);
+  const SignalPoint point = calc_signal(law.law, argument.value);
+  values[0].force = point.value;
+  *argument.slope = point.slope;
 }
 
 void calc_forces(const Controller& controller, double t, const ElementState& state,

@@ -192,7 +192,8 @@ void set_normal_force(const RpsupParameters& p, ClearanceParameters& joint) {
   joint.minimum_onset_rate = p.minimum_impact_velocity;
 }
 
-/// The flexible links but for the coupler. @param bodies  of describe_rpsup()
+/// The flexible links but for the coupler. @param bodies  as built, in the order of
+/// describe_rpsup()
 std::vector<BentLink> list_bent_links(const RpsupParameters& p, const std::vector<BodyFrames>& bodies) {
   std::vector<BentLink> bent;
   const auto add = [&](const char* name, const RoundLink& link, std::size_t body, double length) {

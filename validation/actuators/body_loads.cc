@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeverArm = 0.4;                             // of the force on the flywheel, [m]
 constexpr double kOscillatorOmega = 9.0;                      // [rad/s]
 constexpr double kShakerOmega = 5.0, kShakerAmplitude = 4.0;  // [rad/s], [m/s^2]
-constexpr double kAcrossTheSlide = 2.0;                       // of the shaker, [m/s^2]
+constexpr double kAccelerationAcross = 2.0;                   // of the shaker, across the slide, [m/s^2]
 
 void add_thrust(Findings& findings) {
   Linkage wheel = make_mover(JointKind::kRevolute, {.name = "q"});
@@ -52,7 +52,7 @@ Linkage make_shaken_oscillator() {
   const double stiffness = kBlockMass * kOscillatorOmega * kOscillatorOmega;
   Linkage shaken = make_mover(JointKind::kPrismatic, {.name = "q", .start = 0.0, .stiffness = stiffness});
   shaken.ground_acceleration[2] = Harmonic{.mean = 0.0, .amplitude = kShakerAmplitude, .omega = kShakerOmega};
-  shaken.ground_acceleration[1] = Constant{kAcrossTheSlide};
+  shaken.ground_acceleration[1] = Constant{kAccelerationAcross};
   return shaken;
 }
 
@@ -70,7 +70,7 @@ void add_shaker(Findings& findings) {
                                     column(shake, "q_m").back(), calc_shaken_displacement(2.0), 1e-8, "m",
                                     kStepTolerance));
   findings.checks.push_back(compare("force that its slide bears across", "m a",
-                                    column(shake, "joint_force_y_n").back(), kBlockMass * kAcrossTheSlide,
+                                    column(shake, "joint_force_y_n").back(), kBlockMass * kAccelerationAcross,
                                     1e-8, "N", kStepTolerance));
   findings.checks.push_back(limit("energy residual on the shaker", "0",
                                   metric_of(shaken, shake, "energy_residual"), 1e-8, "1", kStepTolerance));

@@ -82,7 +82,8 @@ RollingCircle find_rolling_circle() {
   return {R, rate};
 }
 
-Linkage make_circling_ball(double R, double rate) {
+Linkage make_circling_ball(const RollingCircle& circle) {
+  const auto& [R, rate] = circle;
   ClearanceParameters socket = make_socket();
   socket.friction = make_stiff_friction(0.8);
   const double s = std::sin(kCircleAngle), c = std::cos(kCircleAngle);
@@ -96,8 +97,9 @@ Linkage make_circling_ball(double R, double rate) {
 }
 
 void compare_circle(Findings& findings) {
-  const auto [R, rate] = find_rolling_circle();
-  const RunResult run = run_linkage(make_circling_ball(R, rate), Integrator::kRadau5, 0.5, 2000.0);
+  const RollingCircle circle = find_rolling_circle();
+  const auto& [R, rate] = circle;
+  const RunResult run = run_linkage(make_circling_ball(circle), Integrator::kRadau5, 0.5, 2000.0);
   double off = 0.0;
   for (const double y : column(run, "y_m")) off = std::max(off, std::abs(y + R * std::cos(kCircleAngle)));
   findings.checks.push_back(limit("height of a ball that rolls in a horizontal circle, against the start",
