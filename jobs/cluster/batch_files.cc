@@ -137,6 +137,7 @@ struct JobTable {
   std::size_t size = 0;  ///< of all that stands before the parameters
 };
 
+/// @param header  out  @throws FileError
 JobTable read_job_table(std::ifstream& in, const std::filesystem::path& file, BatchHeader& header) {
   std::uint32_t size = 0;
   if (!in.read(reinterpret_cast<char*>(&size), sizeof size) || size > kLargestBatchHeader) {

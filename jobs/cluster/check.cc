@@ -122,8 +122,10 @@ class Check {
   bool await_result(std::chrono::seconds at_most, const std::function<bool()>& stop_requested) {
     const auto start = Clock::now();
     for (auto next_look = start; Clock::now() - start < at_most && !stop_requested();) {
-      if (const auto files = batch_.find_new_results(); !files.empty())
-        return judge_result(decode_results(read_whole(files.front())), start);
+      if (const auto files = batch_.find_new_results(); !files.empty()) {
+        tell_result(decode_results(read_whole(files.front())), start);
+        return true;
+      }
       if (Clock::now() >= next_look) {
         next_look = Clock::now() + std::min(site_.queue_poll, std::chrono::milliseconds(2'000));
         look();
@@ -181,13 +183,12 @@ class Check {
                  "If a library is missing there, --slurm-prologue can load it ('module load gcc').");
   }
 
-  bool judge_result(const ResultFile& file, Clock::time_point start) {
+  void tell_result(const ResultFile& file, Clock::time_point start) {
     const std::chrono::duration<double> took = Clock::now() - start;
     good("a node, " + file.provenance.host + ", has computed a job; its result was here after " +
          seconds_text(took.count()));
     if (ended_) check_delay(Clock::now() - *ended_);
     compare_with_own(file);
-    return true;
   }
 
   void check_delay(std::chrono::duration<double> late) {

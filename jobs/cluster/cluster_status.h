@@ -27,6 +27,7 @@ class ClusterStatus {
   [[nodiscard]] nlohmann::json json() const;
 
  private:
+  /// mutex_ is held.
   void count(const TaskReport& report);
 
   mutable std::mutex mutex_;  // guards the rest

@@ -157,6 +157,7 @@ class Remaining {
   BatchJobs jobs_;
 };
 
+/// @param remaining, delivery  outlive the source
 JobSource source_of(Remaining& remaining, Delivery& delivery) {
   return {.claim = [&remaining](const OnClaim& on_claim) { remaining.claim(on_claim); },
           .record = [&delivery](const ClaimedJob& job, const RunRecord& record,

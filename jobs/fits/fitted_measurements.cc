@@ -120,19 +120,21 @@ void FittedMeasurementsParser::read_channels(const json& given, FittedMeasuremen
   for (const auto& [name, options] : channels.items()) {
     const std::string place = pointer + pointer_token(name);
     if (std::ranges::find(known, name) == known.end()) fault(place, describe_unknown_key(name, known));
-    else check_channel_options(options, place);
-    one.channels[name] = options;
+    else if (!options.is_object()) fault(place, "must be an object of weight and noise");
+    else read_channel(name, options, one);
   }
 }
 
-void FittedMeasurementsParser::check_channel_options(const json& options, const std::string& pointer) {
-  if (!options.is_object()) return fault(pointer, "must be an object of weight and noise");
+void FittedMeasurementsParser::read_channel(const std::string& name, const json& options,
+                                            FittedMeasurement& one) {
+  const std::string pointer = one.pointer + "/channels" + pointer_token(name);
   check_keys_of(options, pointer, kFittedChannelKeys);
   for (const std::string_view key : kFittedChannelKeys) {
     const Range above_0{.minimum = 0.0, .lower = Bound::kExclusive};
     if (options.contains(key))
       is_right(pointer + "/" + std::string(key), describe_number_fault(above_0, "", options.at(key)));
   }
+  one.channels[name] = options;
 }
 
 }  // namespace jobs

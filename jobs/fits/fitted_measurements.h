@@ -53,7 +53,7 @@ class FittedMeasurementsParser : protected RequestParser {
 
  private:
   void read_measurement(const nlohmann::json& given, const std::string& pointer);
-  /// Reads the runs and windows that are compared.
+  /// Reads the runs and windows that are compared, and the shift of the time.
   void read_selection(const nlohmann::json& given, FittedMeasurement& one);
   [[nodiscard]] std::vector<std::size_t> read_runs(const nlohmann::json& given, const std::string& pointer,
                                                    const char* key, std::size_t count, bool all);
@@ -62,7 +62,7 @@ class FittedMeasurementsParser : protected RequestParser {
   [[nodiscard]] std::vector<TimeWindow> read_windows(const nlohmann::json& given, const std::string& pointer,
                                                      const char* key);
   void read_channels(const nlohmann::json& given, FittedMeasurement& one);
-  void check_channel_options(const nlohmann::json& options, const std::string& pointer);
+  void read_channel(const std::string& name, const nlohmann::json& options, FittedMeasurement& one);
 
   const FindMeasurement& find_measurement_;
 };

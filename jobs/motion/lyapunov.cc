@@ -284,7 +284,7 @@ Divergence DivergenceMeasurement::finish() const {
 
 namespace {
 
-void check_replicates(const ResultTable& results) {
+void check_can_be_measured(const ResultTable& results) {
   if (std::ranges::find(results.columns, "replicate") == results.columns.end())
     throw WrongState("the sweep has no replicates, which could part");
   if (results.rows.size() > kMostJobsOfDiagram) {
@@ -336,7 +336,7 @@ std::vector<json> measure_set(std::span<const std::size_t> rows, const OrbitRead
 }  // namespace
 
 ResultTable make_lyapunov(const json& axes, const ResultTable& results, const RunReader& reader) {
-  check_replicates(results);
+  check_can_be_measured(results);
   ResultTable table{.columns = axes.get<std::vector<std::string>>(), .rows = {}, .ended = results.ended};
   std::vector<std::size_t> swept;
   for (const std::string& path : table.columns) swept.push_back(find_column(results, path, ""));

@@ -179,8 +179,7 @@ std::vector<std::string> table_columns(const OptimisationRequest& request) {
 
 /// Objectives and bounds of a candidate; null unless it has all its values.
 void add_metric_cells(const OptimisationRequest& request, const OptimisationCandidate& candidate,
-                      std::vector<json>& cells) {
-  const CandidateState state = state_of(request, candidate);
+                      CandidateState state, std::vector<json>& cells) {
   const bool has_values = state == CandidateState::kFeasible || state == CandidateState::kInfeasible;
   for (std::size_t i = 0; i < request.objectives.size(); ++i)
     cells.push_back(has_values ? json(objective_of(request, candidate, i)) : json());
@@ -200,7 +199,7 @@ std::vector<json> candidate_cells(const Optimiser& optimiser, const ListedCandid
                           is_on_front,
                           candidate.job_ids.empty() ? json() : json(candidate.job_ids.front())};
   cells.insert(cells.end(), candidate.values.begin(), candidate.values.end());
-  add_metric_cells(optimiser.request(), candidate, cells);
+  add_metric_cells(optimiser.request(), candidate, state, cells);
   return cells;
 }
 

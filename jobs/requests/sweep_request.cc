@@ -197,7 +197,8 @@ class SweepParser {
     case_count_ = cases.size();
   }
 
-  /// Multiplies what has been counted. None if that is too large a number.
+  /// Counts the jobs, and the points of the design; adds the faults of axes and design. "sweep" is an object.
+  /// None if the jobs are too large a number.
   std::optional<std::uint64_t> count_jobs() {
     std::uint64_t jobs = case_count_;
     // Replicates of some sets only are counted as they are made.

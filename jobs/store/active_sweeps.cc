@@ -140,7 +140,8 @@ std::size_t count_strata(const std::vector<ListedSweep>& sweeps) {
   return strata;
 }
 
-/// Adds sweeps at even distances, which stand for all of a stratum. @param most  sweeps that are added
+/// Adds sweeps at even distances, which stand for all of a stratum. @param most  number of
+/// them
 void add_stratum(std::span<const ListedSweep> stratum, std::size_t most, std::vector<ListedSweep>& sample) {
   const std::size_t taken = std::min(stratum.size(), most);
   for (std::size_t k = 0; k < taken; ++k) {

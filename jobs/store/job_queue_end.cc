@@ -75,7 +75,7 @@ void delete_unused(SQLite::Database& database, const std::vector<std::int64_t>& 
                contents);
 }
 
-/// Deletes a job of no sweep. @param content  its number
+/// Deletes a job of no sweep. @param content  number of its content
 void delete_single_job(SQLite::Database& database, std::int64_t job, std::int64_t content) {
   const auto results = find_numbers(database, "SELECT seq FROM results WHERE content = ?", content);
   run_for_each(database, "DELETE FROM jobs WHERE seq = ?", {job});

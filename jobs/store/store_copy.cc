@@ -27,7 +27,7 @@ void make_empty_file(const std::filesystem::path& file) {
 int ask_whether_to_stop(void* stop) { return (*static_cast<const std::function<bool()>*>(stop))() ? 1 : 0; }
 
 /// Writes what the store holds now to an empty file. @returns whether stop() let it go on to the end
-bool vacuum_into(const std::filesystem::path& file, const std::filesystem::path& store,
+bool vacuum_into(const std::filesystem::path& store, const std::filesystem::path& file,
                  std::function<bool()> stop) {
   constexpr int kStepsBetweenQuestions = 1000;
   // A read-only connection of its own: it holds one snapshot of the store, while the others go on. Those of
@@ -60,7 +60,7 @@ bool copy_store(const std::filesystem::path& store, const std::filesystem::path&
                 const std::function<bool()>& stop) {
   make_empty_file(file);
   try {
-    const bool is_whole = with_storage_errors([&] { return vacuum_into(file, store, stop); });
+    const bool is_whole = with_storage_errors([&] { return vacuum_into(store, file, stop); });
     if (!is_whole) std::filesystem::remove(file);
     return is_whole;
   } catch (...) {

@@ -467,7 +467,9 @@ void PackedTrajectory::load(const StoredBytes& blob) {
   for (const Channel& channel : channels_) {
     const auto [frame, is_new] =
         frames.try_emplace(channel.offset, LoadedFrame{.size = channel.size, .place = total});
-    if (is_new) total += frame->second.decompressed = find_column_size(blob, channel);
+    if (!is_new) continue;
+    frame->second.decompressed = find_column_size(blob, channel);
+    total += frame->second.decompressed;
   }
   const auto columns = decompress_frames(blob, frames, total);
   for (Channel& channel : channels_) {

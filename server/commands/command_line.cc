@@ -169,7 +169,7 @@ CLI::App* add_paper(CLI::App& app, PaperOptions& options) {
   return command;
 }
 
-void add_trajectory_options(CLI::App& command, ExportOptions& options) {
+void add_export_options(CLI::App& command, ExportOptions& options) {
   CLI::Option* const sweep =
       command
           .add_option("--trajectories", options.sweep,
@@ -193,7 +193,7 @@ CLI::App* add_export(CLI::App& app, ExportOptions& options) {
       ->check(describe_store_name_fault)
       ->type_name("FILE");
   add_store_option(*command, options.store, "SQLite file of sweeps and results")->required();
-  add_trajectory_options(*command, options);
+  add_export_options(*command, options);
   return command;
 }
 

@@ -89,8 +89,6 @@ class GrowingFile {
   bool is_kept_ = false;
 };
 
-constexpr std::chrono::minutes kFilePatience{10};  // the service makes the file before it sends any of it
-
 /// Format of the trajectories of a sweep. @throws BadInput
 TableFormat check_sweep_file(const TrajectoryOptions& options, const OutputFile& output) {
   const TableFormat format = check_output(output, options.format, DataShape::kTrajectories);
@@ -105,6 +103,7 @@ TableFormat check_sweep_file(const TrajectoryOptions& options, const OutputFile&
 int save_trajectories(const TrajectoryOptions& options, const OutputFile& output, const QueryItems& query) {
   const TableFormat format = check_sweep_file(options, output);
   RemoteService service(options.remote);
+  constexpr std::chrono::minutes kFilePatience{10};  // the service makes the file before it sends any of it
   service.set_patience(kFilePatience);
   GrowingFile file(output.path);
   bool is_written = true;

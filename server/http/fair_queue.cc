@@ -8,7 +8,7 @@ namespace server {
 
 std::optional<PendingConnection> FairQueue::add(PendingConnection& connection) {
   auto line = std::ranges::find(lines_, connection.peer, &Line::peer);
-  if (size_ >= most_) return displace_by(connection, line);
+  if (size_ >= most_) return add_to_full(connection, line);
   if (line == lines_.end()) {
     lines_.push_back({.peer = connection.peer, .connections = {}});
     line = std::prev(lines_.end());
@@ -23,7 +23,7 @@ std::optional<PendingConnection> FairQueue::add(PendingConnection& connection) {
   return std::nullopt;
 }
 
-std::optional<PendingConnection> FairQueue::displace_by(PendingConnection& connection, Place line) {
+std::optional<PendingConnection> FairQueue::add_to_full(PendingConnection& connection, Place line) {
   const auto longest = std::ranges::max_element(
       lines_, {}, [](const Line& each) { return each.connections.size(); });
   const std::size_t own = line == lines_.end() ? 0 : line->connections.size();

@@ -35,9 +35,9 @@ class FairQueue {
 
   using Place = std::list<Line>::iterator;
 
-  /// Adds a connection where the queue is full.
+  /// Adds a connection to a queue that is full, as add() does.
   /// @param line  of its peer; the end if there is none
-  std::optional<PendingConnection> displace_by(PendingConnection& connection, Place line);
+  std::optional<PendingConnection> add_to_full(PendingConnection& connection, Place line);
 
   const std::size_t most_;
   std::size_t size_ = 0;

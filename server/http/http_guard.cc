@@ -140,7 +140,6 @@ void GuardedServer::queue_connection(PendingConnection connection) noexcept {
   try {
     displaced = add_to_queue(connection);
   } catch (const std::bad_alloc&) {
-    if (!may_be_probe(connection.received)) --queued_;
     log_error("a connection is closed: no memory");
     ::close(connection.socket);
     return;
@@ -151,9 +150,14 @@ void GuardedServer::queue_connection(PendingConnection connection) noexcept {
 std::optional<PendingConnection> GuardedServer::add_to_queue(PendingConnection& connection) {
   if (may_be_probe(connection.received)) return probe_pool_.add(connection);
   ++queued_;
-  std::optional<PendingConnection> displaced = pool_.add(connection);
-  if (displaced) --queued_;
-  return displaced;
+  try {
+    std::optional<PendingConnection> displaced = pool_.add(connection);
+    if (displaced) --queued_;
+    return displaced;
+  } catch (...) {
+    --queued_;
+    throw;
+  }
 }
 
 void GuardedServer::refuse_without_worker(PendingConnection connection, const Response& refusal) noexcept {
@@ -201,11 +205,19 @@ std::ptrdiff_t GuardedServer::read_body(char* to, std::size_t size) {
 }
 
 bool GuardedServer::read_head_or_refuse(HttpStream& stream) {
-  const HttpStream::Head read = stream.read_head();
-  if (read == HttpStream::Head::kTooSlow) refuse(stream, 408, "the head of the request did not come in time");
-  if (read == HttpStream::Head::kTooLarge)
-    refuse(stream, 431, "the head is larger than " + std::to_string(limits_.head_bytes) + " bytes");
-  return read == HttpStream::Head::kComplete;
+  switch (stream.read_head()) {
+    case HttpStream::Head::kComplete:
+      return true;
+    case HttpStream::Head::kClosed:
+      break;
+    case HttpStream::Head::kTooSlow:
+      refuse(stream, 408, "the head of the request did not come in time");
+      break;
+    case HttpStream::Head::kTooLarge:
+      refuse(stream, 431, "the head is larger than " + std::to_string(limits_.head_bytes) + " bytes");
+      break;
+  }
+  return false;
 }
 
 void GuardedServer::serve(HttpStream& stream) {

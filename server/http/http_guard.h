@@ -75,7 +75,8 @@ class GuardedServer final : public httplib::Server {
   /// Serves the request; an exception is logged, and answered if nothing has been sent.
   void serve_guarded(HttpStream& stream) noexcept;
   void serve(HttpStream& stream);
-  /// Reads the head of the request. False if there is none to serve: then its client has been refused.
+  /// Reads the head of the request. False if there is none to serve; a client that is still there has been
+  /// refused.
   bool read_head_or_refuse(HttpStream& stream);
   void serve_with_library(HttpStream& stream, RequestHead head);
   template <typename Self, typename Fill>
