@@ -42,7 +42,7 @@ constexpr const char* kFaults =
     R"(A proof that cannot fail proves nothing. `script/faults` plants faults in copies of the engine, one at
 a time: a changed sign, a factor of 2, a missing term, two exchanged frames. It then runs the engine's light
 tests, most of which are sections of the chapters above. `tests/faults/faults.txt` lists the faults.
-[found.csv](../tests/faults/found.csv) names the first test that failed with each fault, and a test checks
+[found.csv](../tests/faults/found.csv) names a test that failed with each fault, and a test checks
 that every fault has one. `script/faults --report tests/faults/found.csv` plants all faults and writes that
 file.)";
 
