@@ -4,10 +4,8 @@
 #include <future>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include <gtest/gtest.h>
-
 
 #include "jobs/base/errors.h"
 #include "jobs/service.h"

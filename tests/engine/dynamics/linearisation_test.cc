@@ -19,7 +19,7 @@ class Linearisation : public testing::TestWithParam<MechanismCase> {};
 
 TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
   MovingMechanism moving(GetParam(), {});
-  MotionSystem& system = moving.system_;
+  MotionSystem& system = moving.system;
   const Eigen::VectorXd by_time = moving.differ(-1, 10.0 * GetParam().step);
   std::vector<Eigen::VectorXd> columns;
   for (Eigen::Index j = 0; j < moving.y.size(); ++j)
@@ -44,7 +44,7 @@ TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
 /// The same of a complex shift: (shift 1 - J) (x + i y) with x = 1 in one place and y = 1 in the next one.
 TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
   MovingMechanism moving(GetParam(), {});
-  MotionSystem& system = moving.system_;
+  MotionSystem& system = moving.system;
   const auto column = [&](Eigen::Index j) {
     return moving.differ(j, j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7);
   };
@@ -88,8 +88,8 @@ TEST(SpecialisedTopology, GivesTheRatesOfAnyTree) {
     MechanismCase general = c;
     general.mechanism.body_loads.push_back({.frame = 0, .law = Constant{0.0}});
     const MovingMechanism special(c, {}), any(general, {});
-    const Eigen::Index size = special.system_.controlled_size();
-    ASSERT_EQ(size, any.system_.controlled_size()) << c.name;
+    const Eigen::Index size = special.system.controlled_size();
+    ASSERT_EQ(size, any.system.controlled_size()) << c.name;
     EXPECT_EQ(special.y.head(size), any.y.head(size)) << c.name;
     const double scale = any.f.head(size).cwiseAbs().maxCoeff();
     EXPECT_LT((special.f.head(size) - any.f.head(size)).cwiseAbs().maxCoeff(), 1e-10 * scale) << c.name;
@@ -102,12 +102,12 @@ TEST(LinearisationAfterAnother, LeavesNothingOfTheOneBeforeBehind) {
   std::erase_if(odd_rings, [](const MechanismCase& c) { return c.name != "odd_rings" && c.name != "odd_rings_apart"; });
   ASSERT_EQ(odd_rings.size(), 2u);
   MovingMechanism many(odd_rings[0], {}), few(odd_rings[1], {});  // of one mechanism
-  for (const Eigen::VectorXd* y : {&many.y, &few.y}) ASSERT_EQ(many.system_.linearise(MovingMechanism::kTime, *y), EvaluationStatus::kOk);
-  ASSERT_EQ(few.system_.linearise(MovingMechanism::kTime, few.y), EvaluationStatus::kOk);
-  ASSERT_TRUE(many.system_.factor(3e4) && few.system_.factor(3e4));
+  for (const Eigen::VectorXd* y : {&many.y, &few.y}) ASSERT_EQ(many.system.linearise(MovingMechanism::kTime, *y), EvaluationStatus::kOk);
+  ASSERT_EQ(few.system.linearise(MovingMechanism::kTime, few.y), EvaluationStatus::kOk);
+  ASSERT_TRUE(many.system.factor(3e4) && few.system.factor(3e4));
   Eigen::VectorXd after_another = few.f, alone = few.f;
-  many.system_.solve_in_place(after_another);
-  few.system_.solve_in_place(alone);
+  many.system.solve_in_place(after_another);
+  few.system.solve_in_place(alone);
   EXPECT_EQ(after_another, alone);
 }
 
@@ -117,21 +117,21 @@ TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
   for (const std::string_view set : instruction_sets()) {
     MovingMechanism other(GetParam(), set);
     EXPECT_EQ((first.f - other.f).cwiseAbs().maxCoeff(), 0.0) << set;
-    for (const NewtonSolver solver : solvers_of(first.system_)) {
-      ASSERT_EQ(first.system_.linearise(MovingMechanism::kTime, first.y, solver), EvaluationStatus::kOk);
-      ASSERT_EQ(other.system_.linearise(MovingMechanism::kTime, other.y, solver), EvaluationStatus::kOk);
-      EXPECT_EQ((first.system_.time_derivative() - other.system_.time_derivative()).cwiseAbs().maxCoeff(), 0.0) << set;
+    for (const NewtonSolver solver : solvers_of(first.system)) {
+      ASSERT_EQ(first.system.linearise(MovingMechanism::kTime, first.y, solver), EvaluationStatus::kOk);
+      ASSERT_EQ(other.system.linearise(MovingMechanism::kTime, other.y, solver), EvaluationStatus::kOk);
+      EXPECT_EQ((first.system.time_derivative() - other.system.time_derivative()).cwiseAbs().maxCoeff(), 0.0) << set;
       Eigen::VectorXd x = first.f;
       Eigen::VectorXd y = first.f;
-      ASSERT_TRUE(first.system_.factor(1e5) && other.system_.factor(1e5));
-      first.system_.solve_in_place(x);
-      other.system_.solve_in_place(y);
+      ASSERT_TRUE(first.system.factor(1e5) && other.system.factor(1e5));
+      first.system.solve_in_place(x);
+      other.system.solve_in_place(y);
       EXPECT_EQ((x - y).cwiseAbs().maxCoeff(), 0.0) << set;
       constexpr std::complex<double> kComplexShift(2e4, 3e4);
       Eigen::VectorXd x_imag = first.f.reverse(), y_imag = x_imag;
-      ASSERT_TRUE(first.system_.factor(kComplexShift) && other.system_.factor(kComplexShift));
-      first.system_.solve_in_place(x, x_imag);
-      other.system_.solve_in_place(y, y_imag);
+      ASSERT_TRUE(first.system.factor(kComplexShift) && other.system.factor(kComplexShift));
+      first.system.solve_in_place(x, x_imag);
+      other.system.solve_in_place(y, y_imag);
       EXPECT_EQ((x - y).cwiseAbs().maxCoeff() + (x_imag - y_imag).cwiseAbs().maxCoeff(), 0.0) << set;
     }
   }
@@ -141,8 +141,8 @@ TEST_P(Linearisation, TheRatesAreTheSameBytesWhetherAllIsKeptOrNot) {
   for (const std::string_view set : instruction_sets()) {
     MovingMechanism moving(GetParam(), set);
     Eigen::VectorXd rates = Eigen::VectorXd::Zero(moving.f.size());
-    Evaluation at = moving.system_.make_evaluation();
-    ASSERT_EQ(moving.system_.calc_derivative(MovingMechanism::kTime, moving.y, rates, at), EvaluationStatus::kOk);
+    Evaluation at = moving.system.make_evaluation();
+    ASSERT_EQ(moving.system.calc_derivative(MovingMechanism::kTime, moving.y, rates, at), EvaluationStatus::kOk);
     EXPECT_EQ((moving.f - rates).cwiseAbs().maxCoeff(), 0.0) << set;
   }
 }
@@ -173,15 +173,15 @@ TEST_P(Specialised, MovesAndVariesAsAnyLinkageDoes) {
   constexpr double kRounding = 1e-9;  // amplified by the least of the multipliers' pivots, and by thin elements' accelerations
   EXPECT_LE((special.f - any.f).cwiseAbs().maxCoeff(), kRounding * any.f.cwiseAbs().maxCoeff());
   for (MovingMechanism* moving : {&special, &any}) {
-    ASSERT_EQ(moving->system_.linearise(MovingMechanism::kTime, special.y), EvaluationStatus::kOk);
-    ASSERT_TRUE(moving->system_.factor(1e4));
+    ASSERT_EQ(moving->system.linearise(MovingMechanism::kTime, special.y), EvaluationStatus::kOk);
+    ASSERT_TRUE(moving->system.factor(1e4));
   }
   Eigen::VectorXd x = any.f, y = any.f;
-  special.system_.solve_in_place(x);
-  any.system_.solve_in_place(y);
+  special.system.solve_in_place(x);
+  any.system.solve_in_place(y);
   EXPECT_LE((x - y).cwiseAbs().maxCoeff(), kRounding * y.cwiseAbs().maxCoeff());
-  EXPECT_LE((special.system_.time_derivative() - any.system_.time_derivative()).cwiseAbs().maxCoeff(),
-            kRounding * any.system_.time_derivative().cwiseAbs().maxCoeff());
+  EXPECT_LE((special.system.time_derivative() - any.system.time_derivative()).cwiseAbs().maxCoeff(),
+            kRounding * any.system.time_derivative().cwiseAbs().maxCoeff());
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Specialised, testing::ValuesIn(ideal_linkages()), [](const auto& test) { return test.param.name; });

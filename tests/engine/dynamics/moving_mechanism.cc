@@ -181,29 +181,29 @@ std::vector<MechanismCase> make_mechanism_cases() {
           of_linkage("dependent_slot", make_quick_return(JointKind::kPrismatic), 0.0, 0.0)};
 }
 
-MovingMechanism::MovingMechanism(const MechanismCase& c, std::string_view instruction_set) : system_(c.mechanism, instruction_set) {
-  Evaluation at = system_.make_evaluation();
+MovingMechanism::MovingMechanism(const MechanismCase& c, std::string_view instruction_set) : system(c.mechanism, instruction_set) {
+  Evaluation at = system.make_evaluation();
   LoopClosure closure(c.mechanism);
   EXPECT_TRUE(closure.assemble(kTime, at));
   at.q[c.pressed] += c.offset;
   for (Eigen::Index i = 0; i < at.qd.size(); ++i) at.qd[i] += c.disturbance * (0.1 * static_cast<double>(i % 3 - 1) + 0.02);
-  for (const FrameIndex i : system_.free_coordinates())
+  for (const FrameIndex i : system.free_coordinates())
     if (c.mechanism.coordinates[static_cast<std::size_t>(i)].stiffness != 0.0) at.q[i] += 1e-3 * (i % 4 - 1.5);
-  y = system_.make_state(at.q, at.qd);
+  y = system.make_state(at.q, at.qd);
   f = Eigen::VectorXd::Zero(y.size());
-  (void)system_.calc_derivative(kTime, y, f, at);
-  (void)system_.prepare_step(at, 0.0, y);
-  while (system_.calc_derivative(kTime, y, f) == EvaluationStatus::kBristleMissing) {
-    system_.widen_bristles(y);
+  (void)system.calc_derivative(kTime, y, f, at);
+  (void)system.prepare_step(at, 0.0, y);
+  while (system.calc_derivative(kTime, y, f) == EvaluationStatus::kBristleMissing) {
+    system.widen_bristles(y);
     f.setZero(y.size());
   }
-  for (Eigen::Index b = 2 * system_.free_count(); b < system_.controlled_size(); ++b)
+  for (Eigen::Index b = 2 * system.free_count(); b < system.controlled_size(); ++b)
     if (f[b] != 0.0) y[b] = std::copysign(1e-4 * static_cast<double>(1 + b % 3), f[b]);  // only what touches has one; bent by its sliding
   evaluate(kTime, y, f);
 }
 
 void MovingMechanism::evaluate(double t, const Eigen::VectorXd& state, Eigen::VectorXd& rates) {
-  EXPECT_EQ(system_.calc_derivative(t, state, rates), EvaluationStatus::kOk);
+  EXPECT_EQ(system.calc_derivative(t, state, rates), EvaluationStatus::kOk);
 }
 
 Eigen::VectorXd MovingMechanism::differ(Eigen::Index direction, double step) {

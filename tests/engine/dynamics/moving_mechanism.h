@@ -23,7 +23,7 @@ struct MechanismCase {
 };
 inline void PrintTo(const MechanismCase& c, std::ostream* out) { *out << c.name; }
 
-/// Mechanisms with every kind of coordinate, contact and force, in contact where they have one.
+/// Mechanisms with every kind of coordinate, contact and force; all journals but that of `apart` are in contact.
 [[nodiscard]] std::vector<MechanismCase> make_mechanism_cases();
 
 /// A mechanism in motion, its bristles bent.
@@ -37,7 +37,7 @@ class MovingMechanism {
   [[nodiscard]] Eigen::VectorXd differ(Eigen::Index direction, double step);
 
   static constexpr double kTime = 0.7;
-  MotionSystem system_;
+  MotionSystem system;
   Eigen::VectorXd y, f;
 };
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <complex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,7 +29,7 @@ class OpenChains : public testing::TestWithParam<MechanismCase> {};
 
 TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
   MovingMechanism moving(GetParam(), {});
-  MotionSystem& system = moving.system_;
+  MotionSystem& system = moving.system;
   ASSERT_TRUE(system.can_solve_recursively());
   constexpr double kSame = 1e-7;  // a stiff contact is put on what moves without it, which costs digits: 1e-8 where a millimetre is pressed in
   for (const double shift : {3e2, 3e4, 3e6}) {
@@ -60,7 +59,7 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
 
 TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrixWithAComplexShift) {
   MovingMechanism moving(GetParam(), {});
-  MotionSystem& system = moving.system_;
+  MotionSystem& system = moving.system;
   ASSERT_TRUE(system.can_solve_recursively());
   constexpr double kSame = 1e-7;  // as above
   const Eigen::Index free = system.free_count(), controlled = system.controlled_size();
@@ -92,7 +91,7 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrixWithAComplexShift) {
 // A step that is tried again is factored anew, after its stages have been evaluated elsewhere.
 TEST_P(OpenChains, WhatIsHeldOutlivesOtherEvaluations) {
   MovingMechanism moving(GetParam(), {});
-  MotionSystem& system = moving.system_;
+  MotionSystem& system = moving.system;
   const auto solve = [&](double shift, const auto& between) {
     Eigen::VectorXd x = moving.f;
     EXPECT_TRUE(system.factor(shift));
@@ -117,7 +116,7 @@ TEST_P(OpenChains, WhatIsHeldOutlivesOtherEvaluations) {
 // As radau5 does: a real and a complex shift are factored, both serve for several steps.
 TEST_P(OpenChains, ARealAndAComplexShiftAreHeldSideBySide) {
   MovingMechanism moving(GetParam(), {});
-  MotionSystem& system = moving.system_;
+  MotionSystem& system = moving.system;
   constexpr std::complex<double> kShift(2e4, 3e4);
   const auto linearise = [&] { ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, NewtonSolver::kRecursive), EvaluationStatus::kOk); };
   const auto solve_real = [&] {
@@ -146,6 +145,7 @@ TEST_P(OpenChains, ARealAndAComplexShiftAreHeldSideBySide) {
     moving.evaluate(MovingMechanism::kTime + 1e-7, other, rates);
   }
 }
+
 INSTANTIATE_TEST_SUITE_P(Cases, OpenChains, testing::ValuesIn(open_chains()), [](const auto& test) { return test.param.name; });
 
 }  // namespace
