@@ -65,7 +65,7 @@ template <typename Joint, typename P, typename T>
 ///
 ///     f = m vd + wd x mc + w x (w x mc),   n = mc x vd + I wd + w x I w
 ///
-/// With the bias accelerations of the frame, this is the body's bias force.
+/// With the bias accelerations of the frame, this is the body's bias force before loads are subtracted.
 template <typename Joint, typename P, typename V>
 [[nodiscard]] RPSUP_INLINE SpatialForce<V> calc_newton_euler_force(const Joint& body, const Frame<P, V>& f) {
   SpatialForce<V> bias_force;

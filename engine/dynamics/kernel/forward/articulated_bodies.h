@@ -34,7 +34,7 @@ template <typename T>
 /// The articulated-body algorithm: M qdd = tau - h of the open chains solved for qdd in O(n), without M.
 ///
 ///     factor(), tip to base   I^A <- I of the body + sum of the children's I^a        (K6)
-///                             U = I^A H,  D = H^T U                                   (K4)
+///                             U = I^A H,  D = H^T U + J_a                             (K4)
 ///                             I^a = I^A - U D^-1 U^T                                  (K5)
 ///     solve(), tip to base    p^A <- p of the body + sum of the children's p^a        (K6)
 ///                             u = tau - H^T p^A                                       (K4)
@@ -82,7 +82,7 @@ class ArticulatedBodies {
           first_moments(model.joints.size()),
           local(model.joints.size()),
           accelerations(model.joints.size()) {}
-    /// in: p of each body, less its loads; out: p^a, or p^A of driven joints
+    /// in: p of each body (loads already subtracted); out: p^a, or p^A of driven joints
     PerJoint<SpatialForce<T>> bias_forces;
     PerJoint<Vec3<T>> first_moments;  ///< L of a slender body's child: its moment x x L is not in bias_forces
     PerJoint<Vec3<T>> local;          ///< D^-1 u: the joint's acceleration while the parent stands still
@@ -115,7 +115,8 @@ class ArticulatedBodies {
     solve(axes, FirstSeedForces{tau}, work, NoOutput<TangentPack>(), slender);
   }
 
-  /// H^T (I^A a + p^A) of a driven joint after solve(): the force or moment that it exerts along its axis.
+  /// H^T (I^A a + p^A) of a driven joint after solve(): the force or moment along its axis, of the drive and
+  /// of tau.
   /// @param i  index of the joint
   template <typename Joint, typename T>
   [[nodiscard]] RPSUP_INLINE T calc_drive_force(const Joint& joint, std::size_t i, const JointAxes& axes,

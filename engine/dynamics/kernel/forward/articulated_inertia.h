@@ -73,7 +73,7 @@ RPSUP_INLINE void add_body_inertia(const Joint& joint, const Mat3<double>& R, Ar
 template <typename Joint>
 RPSUP_INLINE void add_to_parent(const Joint& joint, const ArticulatedInertia& inertia, const Vec3<double>& r,
                                 ArticulatedInertia& parent) {
-  if (joint.last_child) parent = ArticulatedInertia{};  // tip to base, the last child comes first
+  if (joint.last_child) parent = ArticulatedInertia{};  // visited first, so it resets
   parent.A += inertia.A;
   if (joint.parent_is_slender) {
     parent.child_A = inertia.A;

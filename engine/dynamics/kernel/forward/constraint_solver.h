@@ -105,7 +105,7 @@ class ConstraintSolver {
     return !(largest < kTorn);
   }
 
-  /// Solves for the multipliers that make up for rhs - Phi_q qdd, after solve().
+  /// Solves (Phi_q M^-1 Phi_q^T) lambda = rhs - Phi_q qdd, after solve().
   /// @param multipliers  in: rhs  @tparam T  a number, or a pack
   template <typename T>
   RPSUP_INLINE void solve_for_multipliers(const SpatialAcceleration<T>* accelerations, const T* qdd,
@@ -114,10 +114,11 @@ class ConstraintSolver {
     delassus_.solve(multipliers, work);
   }
 
-  /// Adds Phi_q^T lambda: the reactions of joints to the bias forces, those of couplings and drives to tau.
+  /// Applies Phi_q^T lambda: subtracts the reactions of joints from the bias forces, adds those of couplings
+  /// and drives to tau.
   template <typename T>
   RPSUP_INLINE void add_reactions(const T* multipliers, SpatialForce<T>* bias_force, T* tau) const {
-    add_joint_reactions(multipliers, bias_force);
+    subtract_joint_reactions(multipliers, bias_force);
     if constexpr (!Topology::is_static) add_coordinate_reactions(multipliers, tau);
   }
 
@@ -151,10 +152,11 @@ class ConstraintSolver {
         bias_forces[i] = {in_first_lane<TangentPack>(motion.bias_force[i].force),
                           in_first_lane<TangentPack>(motion.bias_force[i].moment)};
     unit_multipliers_.fill({});
+    // The units are negative, as residual_ is -Phi_q qdd.
     for (int k = std::max(column, 0); k < std::min(column + TangentPack::kCount, delassus_.active_count());
          ++k)
       unit_multipliers_[delassus_.active_row(k)] = -TangentPack::unit(k - column);
-    add_joint_reactions(unit_multipliers_.data(), bias_forces.data());
+    subtract_joint_reactions(unit_multipliers_.data(), bias_forces.data());
     residual_.fill({});
     if constexpr (Topology::is_static) {
       static constexpr double kNoTau[Topology::n_q]{};
@@ -177,7 +179,7 @@ class ConstraintSolver {
 
   /// Subtracts the reactions of the joints from the bias forces.
   template <typename T>
-  RPSUP_INLINE void add_joint_reactions(const T* multipliers, SpatialForce<T>* bias_force) const {
+  RPSUP_INLINE void subtract_joint_reactions(const T* multipliers, SpatialForce<T>* bias_force) const {
     Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
       const LoopJoint& loop = joints[k];
@@ -263,7 +265,7 @@ class ConstraintSolver {
   Delassus delassus_;                  ///< factored by solve()
   typename Bodies::template Workspace<TangentPack> work_;
   PerRow<double> unconstrained_residual_;  ///< -Phi_q qdd_0
-  PerRow<TangentPack> unit_multipliers_, residual_;  // the units are negative, as residual_ is -Phi_q qdd
+  PerRow<TangentPack> unit_multipliers_, residual_;
 };
 /// Stands for the solver where a topology has no constraints.
 struct NoConstraints {

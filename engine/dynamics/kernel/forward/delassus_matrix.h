@@ -154,9 +154,9 @@ class DelassusMatrix {
     if (regularised_) {
       // (K14): S times a first solution is the projection of the right-hand side on the range of S. The part
       // outside, if only by rounding, would be amplified by 1 / e.
-      refine_regularised(work);
+      solve_regularised(work);
       multiply(work.solution.data(), scaled);
-      refine_regularised(work);
+      solve_regularised(work);
       for (int k = 0; k < n; ++k) scaled[k] = work.solution[k];
     } else {
       solve_cholesky(n, n, A_.data(), scaled);
@@ -170,8 +170,8 @@ class DelassusMatrix {
 
   /// work.solution <- S^+ work.rhs, of least norm, by the iteration (K13).
   template <typename T>
-  RPSUP_INLINE void refine_regularised(Workspace<T>& work) const {
-    constexpr int kIterations = 3;
+  RPSUP_INLINE void solve_regularised(Workspace<T>& work) const {
+    constexpr int kRefinements = 3;
     const int n = active_count_;
     T* remainder = work.remainder.data();
     T* solution = work.solution.data();
@@ -179,10 +179,10 @@ class DelassusMatrix {
       remainder[k] = work.rhs[k];
       solution[k] = {};
     }
-    for (int iteration = 0; iteration <= kIterations; ++iteration) {
+    for (int iteration = 0; iteration <= kRefinements; ++iteration) {
       solve_cholesky(n, n, A_.data(), remainder);
       for (int k = 0; k < n; ++k) solution[k] += remainder[k];
-      if (iteration == kIterations) break;
+      if (iteration == kRefinements) break;
       multiply(solution, remainder);
       for (int k = 0; k < n; ++k) remainder[k] = work.rhs[k] - remainder[k];
     }
@@ -214,8 +214,8 @@ class DelassusMatrix {
       for (int l = 0; l <= k; ++l) matrix[k * n + l] *= weight[k] * weight[l];
   }
 
-  /// G_ <- Phi_q D Phi_q^T, weighed as S, where D divides each column by its largest entry: the Delassus
-  /// matrix if M were diagonal, with the squares of these entries.
+  /// G_ <- Phi_q D Phi_q^T, weighed as S, where D divides each column by the square of its largest entry:
+  /// the Delassus matrix if M were diagonal, with these squares.
   RPSUP_INLINE void calc_geometry(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
     const int n = active_count_;
     G_.fill(0.0);

@@ -152,7 +152,8 @@ class ForwardDynamics {
     return joint < 0 ? ground_ : frames[joint];
   }
 
-  /// Bias force of each body: its Newton-Euler force less the loads of contacts and point springs.
+  /// Bias force of each body: its Newton-Euler force less the loads of contacts, point springs
+  /// and body loads.
   RPSUP_INLINE void calc_bias_forces() {
     Topology::base_to_tip(model_, [&](std::size_t i, const auto&) RPSUP_INLINE_LAMBDA {
       bias_force_[i] = body_bias_force_[i];

@@ -64,7 +64,7 @@ struct SingleAxisFactor {
     return D > 0.0;
   }
 
-  /// @param local  out: D^-1 u in x
+  /// @param local  out: D^-1 u in local.x
   /// @param force  in: p^A; out: p^a
   template <typename Joint, typename T, typename Tau>
   RPSUP_INLINE void tip_to_base_force(const Joint& joint, const JointAxes& axes, const Tau& tau,
@@ -168,8 +168,8 @@ struct SphericalFactor {
   }
 };
 
-/// The spherical joint of a slender body: Eq. (K9), the same in the body's own frame, where D is diagonal but
-/// for the two bending directions, and C x = 0. So U and J need not be assembled.
+/// The spherical joint of a slender body: Eq. (K9), the same in the body's own frame, where D has the blocks
+/// D_xx and that of y and z, and C x = 0. So U and J need not be assembled.
 struct SlenderBodyFactor {
   Mat3<double> R;
   Vec3<double> gain_y, gain_z;  ///< columns y and z of U_a D^-1

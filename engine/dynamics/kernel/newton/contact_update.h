@@ -30,7 +30,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///
 ///     T_0 x = b + F xi,   xi = G x   =>   (1 - G T_0^-1 F) xi = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 F xi
 ///
-/// where F are the loads (K20) on the bodies by xi with the condensed contact (K32), G is (K19), and
+/// where F xi is the right-hand side by the loads (K20) on the bodies with the condensed contact (K32), G is
+/// (K19), and
 /// 1 - G T_0^-1 F is the capacitance matrix of Woodbury's identity. It loses digits where a contact is
 /// stiffer than all that moves without it. Source: G. H. Golub, C. F. Van Loan, Matrix Computations,
 /// section 2.1 (Sherman-Morrison-Woodbury formula).
@@ -83,7 +84,7 @@ class ContactUpdate {
                                                     const typename Tree::template Workspace<T>& work) const;
 
   std::vector<std::unique_ptr<Contact>> contacts_;
-  Buffer<Contact*> touching_;               ///< joints in contact
+  Buffer<Contact*> touching_;               ///< joints in contact, or with a bent bristle
   std::size_t touching_count_ = 0;
   std::size_t packs_ = 0;                   ///< of the numbers of xi
   DenseMatrix<Scalar> capacitance_matrix_;  ///< factored

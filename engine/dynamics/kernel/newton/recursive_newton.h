@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/clearance/clearance_joint.h"
@@ -18,10 +19,12 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// Whether RecursiveNewtonSolver can solve a mechanism's Newton systems: it knows neither constraints nor
-/// point springs nor applied forces nor body loads.
+/// point springs, applied forces, body loads, armatures.
 [[nodiscard]] inline bool fits_recursive_solver(const TreeModel& model) {
+  const bool has_armature = std::ranges::any_of(
+      model.joints, [](const TreeJoint& joint) { return joint.armature != 0.0; });
   return model.rows == 0 && model.springs.empty() && model.applied_forces.empty() &&
-         model.body_loads.empty();
+         model.body_loads.empty() && !has_armature;
 }
 
 /// The Newton system (sigma 1 - J) x = b of an implicit step, J = df/dy of MotionSystem's state equation,
