@@ -180,7 +180,7 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
   if (!alone) check_mass_matrix(M);
 }
 
-/// What the free coordinates of joints carry.
+/// Checks of the masses that free coordinates of joints carry.
 void check_free_coordinates(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
                             std::vector<FrameIndex> free) {
   std::erase_if(free, [&](FrameIndex i) {

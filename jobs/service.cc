@@ -61,7 +61,7 @@ void tell_other_engine(const Store& store, const std::function<void(const std::s
       engine_version() + ": jobs that are asked for again are computed again");
 }
 
-/// What a store without room is open for.
+/// Uses that a store without room is open for, in words.
 std::string describe_use_without_room(LogIndex log_index) {
   return log_index == LogIndex::kFile
              ? "the store is open for reading, cancelling and deleting only: "

@@ -33,7 +33,7 @@ class WornGap {
     narrowest_ = *std::min_element(gap_.begin(), gap_.end());
   }
 
-  /// How far the journal gets in the direction theta until it touches so many angles away from it, [m].
+  /// Way of the journal in the direction theta until it touches so many angles away from it, [m].
   [[nodiscard]] double calc_limit(int theta, int away) const {
     return gap_[static_cast<std::size_t>((theta + away + kAngles) % kAngles)] *
            inverse_cosine_[static_cast<std::size_t>(std::abs(away))];

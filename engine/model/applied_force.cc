@@ -56,7 +56,7 @@ AppliedForceValue to_value(const Derived& d) {
   return {.force = d.value, .by_t = d.by_t, .by_q = {d.by_q, 0.0}, .by_v = {d.by_v, d.by_integral}};
 }
 
-/// What the force of a law is a function of, and the derivative by that.
+/// Argument of a force law, and the derivative of the force by that.
 struct LawArgument {
   double value;
   double* slope;

@@ -67,7 +67,7 @@ json parameters_at(const SweepRequest& sweep, const Position& position) {
   return given;
 }
 
-/// What a description is called: its name, law or actuator.
+/// Name of a description, of its law or of its actuator.
 /// @param name_key  member of a description that names it
 std::string find_given_name(const json& described, const char* name_key) {
   if (!described.is_object()) return "";

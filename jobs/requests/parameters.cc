@@ -282,7 +282,7 @@ void write_drives(const json& completed, engine::RpsupParameters& parameters) {
   }
 }
 
-/// What only jobs of "rpsup" have.
+/// Parameters that only jobs of "rpsup" have.
 void write_rpsup(const json& completed, engine::RpsupParameters& parameters) {
   write_links(completed.at("links"), parameters);
   if (completed.contains(kWearKey)) parameters.wear_depth = to_wear_depth(completed.at(kWearKey));

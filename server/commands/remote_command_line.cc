@@ -65,7 +65,7 @@ Command add_submit(CLI::App& app) {
   return make_remote_command(command, options, submit);
 }
 
-/// What the columns of a file of measured signals are.
+/// Options on the columns of a file of measured signals.
 void add_column_options(CLI::App& command, MeasureOptions& options) {
   command.add_option("--time", options.time,
                      "Column of the time in s; time_s, t_s or the first one if left out");
@@ -163,7 +163,7 @@ Command add_watch(CLI::App& app) {
   return make_remote_command(command, options, watch);
 }
 
-/// Which columns and rows of a table are printed, and in which order.
+/// Options on the columns, rows and order of a printed table.
 void add_row_options(CLI::App& command, ResultsOptions& options) {
   command.add_option("--fields", options.fields,
                      "Columns in this order, separated by commas; all if left out");

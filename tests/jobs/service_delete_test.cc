@@ -48,8 +48,8 @@ class SizeLimit {
   void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
 };
 
-// The log, which is new, may grow by a page more each time, until there is room to delete some jobs at a time:
-// there is none to delete all at once, but it is enough to make the file smaller, too.
+// The log, which is new, may grow by a page more each time, until there is room to delete some jobs at a
+// time: there is none to delete all at once, but it is enough to make the file smaller, too.
 TEST(Service, DeletesOrRefusesToWhereTheDiskIsFull) {
   constexpr rlim_t kPage = 8192;
   const TemporaryStore temporary;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Jacobian of the equations of motion against differences of themselves, and the instruction sets against each other.
+// The Jacobian of the equations of motion against differences of themselves, and the instruction sets against
+// each other.
 
 #include <algorithm>
 #include <complex>
@@ -23,11 +24,15 @@ TEST_P(Linearisation, IsTheDerivativeInEveryDirection) {
   const Eigen::VectorXd by_time = moving.differ(-1, 10.0 * GetParam().step);
   std::vector<Eigen::VectorXd> columns;
   for (Eigen::Index j = 0; j < moving.y.size(); ++j)
-    columns.push_back(moving.differ(j, j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7));
+    columns.push_back(moving.differ(j, j < system.free_count()       ? GetParam().step
+                                       : j < 2 * system.free_count() ? 1e-5
+                                                                     : 1e-7));
   for (const NewtonSolver solver : solvers_of(system)) {
     ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, solver), EvaluationStatus::kOk);
-    EXPECT_LE((system.time_derivative() - by_time).cwiseAbs().maxCoeff(), 2e-6 * by_time.cwiseAbs().maxCoeff());  // 0 without drives
-    // (shift 1 - J) is known by its inverse only: what it makes of its own columns, taken by differences, is a unit vector.
+    EXPECT_LE((system.time_derivative() - by_time).cwiseAbs().maxCoeff(),
+              2e-6 * by_time.cwiseAbs().maxCoeff());  // 0 without drives
+    // (shift 1 - J) is known by its inverse only: what it makes of its own columns, taken by differences, is
+    // a unit vector.
     constexpr double kShift = 3e4;
     ASSERT_TRUE(system.factor(kShift));
     for (Eigen::Index j = 0; j < moving.y.size(); ++j) {
@@ -46,7 +51,9 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
   MovingMechanism moving(GetParam(), {});
   MotionSystem& system = moving.system;
   const auto column = [&](Eigen::Index j) {
-    return moving.differ(j, j < system.free_count() ? GetParam().step : j < 2 * system.free_count() ? 1e-5 : 1e-7);
+    return moving.differ(j, j < system.free_count()       ? GetParam().step
+                            : j < 2 * system.free_count() ? 1e-5
+                                                          : 1e-7);
   };
   constexpr std::complex<double> kShift(2e4, 3e4);
   std::vector<Eigen::VectorXd> columns;
@@ -55,16 +62,19 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
     ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, solver), EvaluationStatus::kOk);
     ASSERT_TRUE(system.factor(kShift));
     for (Eigen::Index j = 0; j + 1 < moving.y.size(); ++j) {
-      Eigen::VectorXd real = -columns[static_cast<std::size_t>(j)], imag = -columns[static_cast<std::size_t>(j) + 1];
+      Eigen::VectorXd real = -columns[static_cast<std::size_t>(j)],
+                      imag = -columns[static_cast<std::size_t>(j) + 1];
       real[j] += kShift.real();
       real[j + 1] -= kShift.imag();
       imag[j] += kShift.imag();
       imag[j + 1] += kShift.real();
-      const double scale = std::max(real.cwiseAbs().maxCoeff(), imag.cwiseAbs().maxCoeff()) / std::abs(kShift);
+      const double scale =
+          std::max(real.cwiseAbs().maxCoeff(), imag.cwiseAbs().maxCoeff()) / std::abs(kShift);
       system.solve_in_place(real, imag);
       real[j] -= 1.0;
       imag[j + 1] -= 1.0;
-      EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale)) << "column " << j;
+      EXPECT_LT(real.cwiseAbs().maxCoeff() + imag.cwiseAbs().maxCoeff(), 4e-6 * std::max(1.0, scale))
+          << "column " << j;
     }
   }
 }
@@ -73,9 +83,12 @@ TEST_P(Linearisation, IsTheDerivativeWithAComplexShift) {
 TEST(SpecialisedTopology, GivesTheRatesOfAnyTree) {
   std::vector<MechanismCase> cases = make_mechanism_cases();
   std::erase_if(cases, [](const MechanismCase& c) {
-    return c.name.find("guide") == std::string::npos && c.name != "forced" && c.name != "controlled" && c.name != "motorised";
+    return c.name.find("guide") == std::string::npos && c.name != "forced" && c.name != "controlled" &&
+           c.name != "motorised";
   });
-  cases.push_back(*std::ranges::find(cases, "forced", &MechanismCase::name));  // with a wheel of its own, where a motor would have its winding
+  cases.push_back(*std::ranges::find(
+      cases, "forced",
+      &MechanismCase::name));  // with a wheel of its own, where a motor would have its winding
   cases.back().name = "flywheel";
   Coordinate& wheel = cases.back().mechanism.coordinates.emplace_back();
   wheel.name = "wheel";
@@ -99,10 +112,12 @@ TEST(SpecialisedTopology, GivesTheRatesOfAnyTree) {
 
 TEST(LinearisationAfterAnother, LeavesNothingOfTheOneBeforeBehind) {
   std::vector<MechanismCase> odd_rings = make_mechanism_cases();
-  std::erase_if(odd_rings, [](const MechanismCase& c) { return c.name != "odd_rings" && c.name != "odd_rings_apart"; });
+  std::erase_if(odd_rings,
+                [](const MechanismCase& c) { return c.name != "odd_rings" && c.name != "odd_rings_apart"; });
   ASSERT_EQ(odd_rings.size(), 2u);
   MovingMechanism many(odd_rings[0], {}), few(odd_rings[1], {});  // of one mechanism
-  for (const Eigen::VectorXd* y : {&many.y, &few.y}) ASSERT_EQ(many.system.linearise(MovingMechanism::kTime, *y), EvaluationStatus::kOk);
+  for (const Eigen::VectorXd* y : {&many.y, &few.y})
+    ASSERT_EQ(many.system.linearise(MovingMechanism::kTime, *y), EvaluationStatus::kOk);
   ASSERT_EQ(few.system.linearise(MovingMechanism::kTime, few.y), EvaluationStatus::kOk);
   ASSERT_TRUE(many.system.factor(3e4) && few.system.factor(3e4));
   Eigen::VectorXd after_another = few.f, alone = few.f;
@@ -120,7 +135,8 @@ TEST_P(Linearisation, AndTheRatesAreTheSameBytesWithEveryInstructionSet) {
     for (const NewtonSolver solver : solvers_of(first.system)) {
       ASSERT_EQ(first.system.linearise(MovingMechanism::kTime, first.y, solver), EvaluationStatus::kOk);
       ASSERT_EQ(other.system.linearise(MovingMechanism::kTime, other.y, solver), EvaluationStatus::kOk);
-      EXPECT_EQ((first.system.time_derivative() - other.system.time_derivative()).cwiseAbs().maxCoeff(), 0.0) << set;
+      EXPECT_EQ((first.system.time_derivative() - other.system.time_derivative()).cwiseAbs().maxCoeff(), 0.0)
+          << set;
       Eigen::VectorXd x = first.f;
       Eigen::VectorXd y = first.f;
       ASSERT_TRUE(first.system.factor(1e5) && other.system.factor(1e5));
@@ -142,7 +158,8 @@ TEST_P(Linearisation, TheRatesAreTheSameBytesWhetherAllIsKeptOrNot) {
     MovingMechanism moving(GetParam(), set);
     Eigen::VectorXd rates = Eigen::VectorXd::Zero(moving.f.size());
     Evaluation at = moving.system.make_evaluation();
-    ASSERT_EQ(moving.system.calc_derivative(MovingMechanism::kTime, moving.y, rates, at), EvaluationStatus::kOk);
+    ASSERT_EQ(moving.system.calc_derivative(MovingMechanism::kTime, moving.y, rates, at),
+              EvaluationStatus::kOk);
     EXPECT_EQ((moving.f - rates).cwiseAbs().maxCoeff(), 0.0) << set;
   }
 }
@@ -150,7 +167,8 @@ TEST_P(Linearisation, TheRatesAreTheSameBytesWhetherAllIsKeptOrNot) {
 /// The linkage without clearance that code is specialised for, and others that look like it.
 std::vector<MechanismCase> ideal_linkages() {
   std::vector<MechanismCase> cases = make_mechanism_cases();
-  std::erase_if(cases, [](const MechanismCase& c) { return c.name != "ideal_flexible" && c.name != "ideal_rigid"; });
+  std::erase_if(cases,
+                [](const MechanismCase& c) { return c.name != "ideal_flexible" && c.name != "ideal_rigid"; });
   for (const std::size_t k : {0u, 1u}) {
     MechanismCase universal = cases.at(k), dependent = cases.at(k);
     universal.name += "_universal";
@@ -170,7 +188,8 @@ TEST_P(Specialised, MovesAndVariesAsAnyLinkageDoes) {
   MechanismCase general = GetParam();
   general.mechanism.springs.push_back({.from_frame = 0, .from = {0.1, 0.2, 0.3}, .to = {5.0, 6.0, 7.0}});
   MovingMechanism special(GetParam(), {}), any(general, {});
-  constexpr double kRounding = 1e-9;  // amplified by the least of the multipliers' pivots, and by thin elements' accelerations
+  constexpr double kRounding =
+      1e-9;  // amplified by the least of the multipliers' pivots, and by thin elements' accelerations
   EXPECT_LE((special.f - any.f).cwiseAbs().maxCoeff(), kRounding * any.f.cwiseAbs().maxCoeff());
   for (MovingMechanism* moving : {&special, &any}) {
     ASSERT_EQ(moving->system.linearise(MovingMechanism::kTime, special.y), EvaluationStatus::kOk);
@@ -184,8 +203,10 @@ TEST_P(Specialised, MovesAndVariesAsAnyLinkageDoes) {
             kRounding * any.system.time_derivative().cwiseAbs().maxCoeff());
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Specialised, testing::ValuesIn(ideal_linkages()), [](const auto& test) { return test.param.name; });
-INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, testing::ValuesIn(make_mechanism_cases()), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Cases, Specialised, testing::ValuesIn(ideal_linkages()),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, testing::ValuesIn(make_mechanism_cases()),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace engine

@@ -35,7 +35,8 @@ std::vector<MechanismCase> make_mechanism_cases() {
   ideal.c_r = 0.0;
   RpsupParameters ideal_rigid = rigid;
   ideal_rigid.c_r = 0.0;
-  RpsupParameters plastic = rigid;  // Kelvin and Voigt's damper, a logarithmic stiffness, elasto-plastic bristles
+  RpsupParameters plastic =
+      rigid;  // Kelvin and Voigt's damper, a logarithmic stiffness, elasto-plastic bristles
   plastic.normal_law = NormalForceLaw::kKelvinVoigt;
   plastic.stiffness_law = StiffnessLaw::kRadzimovsky;
   plastic.friction = FrictionLaw::kElastoPlastic;
@@ -56,38 +57,84 @@ std::vector<MechanismCase> make_mechanism_cases() {
   links_rows.c_r = 0.0;
   RpsupParameters all_rows = rows;
   all_rows.c_r = 0.0;
-  RpsupParameters worn = rigid;  // uneven, and different for the two rings; a spline's bend is continuous and no more, so small steps
+  RpsupParameters worn = rigid;  // uneven, and different for the two rings; a spline's bend is continuous and
+                                 // no more, so small steps
   for (const double ring : {0.0, 1.0}) {
     worn.wear_depth.emplace_back();
-    for (int s = 0; s < 24; ++s) worn.wear_depth.back().push_back(1e-5 * (1.0 + ring + std::sin(0.5 * s + ring)));
+    for (int s = 0; s < 24; ++s)
+      worn.wear_depth.back().push_back(1e-5 * (1.0 + ring + std::sin(0.5 * s + ring)));
   }
-  Linkage sprung = make_spatial_slider_crank(JointKind::kSpherical);  // from a body that turns to the ground, and to one that slides
-  sprung.springs = {{.name = "to_ground", .from = kGroundName, .to = "rod", .at = {0.1, -0.2, 0.3}, .to_at = {-0.1, 0.02, 0.01}, .stiffness = 300.0,
-                     .damping = 20.0, .free_length = 0.1},
-                    {.name = "back", .from = "rod", .to = "crank", .at = {-0.2, 0.05, 0.01}, .to_at = {0.03, 0.01, 0.02}, .stiffness = 150.0,
-                     .damping = 4.0, .drag = 7.0, .free_length = 0.1},
-                    {.name = "across", .from = "crank", .to = "slider", .at = {0.0, 0.0, 0.06}, .to_at = {0.05, 0.0, 0.0}, .stiffness = 200.0,
+  Linkage sprung = make_spatial_slider_crank(
+      JointKind::kSpherical);  // from a body that turns to the ground, and to one that slides
+  sprung.springs = {{.name = "to_ground",
+                     .from = kGroundName,
+                     .to = "rod",
+                     .at = {0.1, -0.2, 0.3},
+                     .to_at = {-0.1, 0.02, 0.01},
+                     .stiffness = 300.0,
+                     .damping = 20.0,
+                     .free_length = 0.1},
+                    {.name = "back",
+                     .from = "rod",
+                     .to = "crank",
+                     .at = {-0.2, 0.05, 0.01},
+                     .to_at = {0.03, 0.01, 0.02},
+                     .stiffness = 150.0,
+                     .damping = 4.0,
+                     .drag = 7.0,
+                     .free_length = 0.1},
+                    {.name = "across",
+                     .from = "crank",
+                     .to = "slider",
+                     .at = {0.0, 0.0, 0.06},
+                     .to_at = {0.05, 0.0, 0.0},
+                     .stiffness = 200.0,
                      .damping = 5.0}};
   Linkage sprung_on_drive = make_screw();  // to a coordinate that moves with time alone
   sprung_on_drive.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
-  sprung_on_drive.springs = {{.name = "pull", .from = kGroundName, .to = "nut", .at = {0.2, 0.1, -0.1}, .to_at = {0.05, 0.0, 0.02},
-                              .stiffness = 100.0, .damping = 3.0, .drag = 2.0, .free_length = 0.05}};
+  sprung_on_drive.springs = {{.name = "pull",
+                              .from = kGroundName,
+                              .to = "nut",
+                              .at = {0.2, 0.1, -0.1},
+                              .to_at = {0.05, 0.0, 0.02},
+                              .stiffness = 100.0,
+                              .damping = 3.0,
+                              .drag = 2.0,
+                              .free_length = 0.05}};
   Linkage driven_screw = make_screw();
   driven_screw.joints[0].freedoms[1].drive = Harmonic{0.0, 0.3, 5.0, 0.4};
-  Linkage actuated = make_spatial_slider_crank(JointKind::kSpherical);  // a motor with a controller on the crank, a table over the slide
+  Linkage actuated = make_spatial_slider_crank(
+      JointKind::kSpherical);  // a motor with a controller on the crank, a table over the slide
   actuated.joints[0].freedoms[0].actuator =
-      DcMotor{.voltage = Controller{.target = Harmonic{0.3, 2.0, 5.0, 0.4}, .controlled = Controller::Controlled::kPosition, .proportional = 30.0,
-                                    .integral = 50.0, .derivative = 2.0},
-              .torque_constant = 0.5, .resistance = 0.8, .inductance = 0.02, .gear_ratio = 3.0, .gear_efficiency = 0.8, .rotor_inertia = 1e-3,
-              .viscous_friction = 0.01, .dry_friction = 0.3, .reversal_velocity = 30.0};
+      DcMotor{.voltage = Controller{.target = Harmonic{0.3, 2.0, 5.0, 0.4},
+                                    .controlled = Controller::Controlled::kPosition,
+                                    .proportional = 30.0,
+                                    .integral = 50.0,
+                                    .derivative = 2.0},
+              .torque_constant = 0.5,
+              .resistance = 0.8,
+              .inductance = 0.02,
+              .gear_ratio = 3.0,
+              .gear_efficiency = 0.8,
+              .rotor_inertia = 1e-3,
+              .viscous_friction = 0.01,
+              .dry_friction = 0.3,
+              .reversal_velocity = 30.0};
   actuated.joints[1].freedoms[0].friction = JointFriction{{.v_s = 1.0}, 50.0};
-  actuated.joints[2].freedoms[0].friction = JointFriction{{.law = FrictionLaw::kCoulomb, .v_0 = 1.0}, 20.0, 0.03};
-  actuated.joints[1].freedoms[0].load =
-      ForceLaw{TableCurve({-2.0, 0.0, 1.0, 2.0}, {5.0, 0.0, -20.0, -90.0}, TableInterpolation::kMonotoneCubic), ForceLaw::Variable::kPosition};
+  actuated.joints[2].freedoms[0].friction =
+      JointFriction{{.law = FrictionLaw::kCoulomb, .v_0 = 1.0}, 20.0, 0.03};
+  actuated.joints[1].freedoms[0].load = ForceLaw{
+      TableCurve({-2.0, 0.0, 1.0, 2.0}, {5.0, 0.0, -20.0, -90.0}, TableInterpolation::kMonotoneCubic),
+      ForceLaw::Variable::kPosition};
   Linkage loaded = make_spatial_slider_crank(JointKind::kSpherical);
-  loaded.loads = {{.name = "thrust", .body = "rod", .at = {0.1, 0.02, 0.03}, .force = {3.0, -5.0, 4.0}, .follows_body = true,
-                   .law = Harmonic{1.0, 0.5, 6.0, 0.2}},
-                  {.name = "twist", .body = "crank", .moment = {0.3, 0.2, -0.4}, .law = Harmonic{0.0, 2.0, 4.0, 0.3}}};
+  loaded.loads = {
+      {.name = "thrust",
+       .body = "rod",
+       .at = {0.1, 0.02, 0.03},
+       .force = {3.0, -5.0, 4.0},
+       .follows_body = true,
+       .law = Harmonic{1.0, 0.5, 6.0, 0.2}},
+      {.name = "twist", .body = "crank", .moment = {0.3, 0.2, -0.4}, .law = Harmonic{0.0, 2.0, 4.0, 0.3}}};
   loaded.ground_acceleration = {Signal(Harmonic{0.0, 3.0, 5.0, 0.1}), std::nullopt, Signal(Constant{2.0})};
   ClearanceParameters socket = *build_rpsup(rigid).mechanism.cut_joints[0].clearance;
   socket.geometry = ContactGeometry::kBallInSocket;
@@ -101,7 +148,8 @@ std::vector<MechanismCase> make_mechanism_cases() {
   slot.c_y = slot.c_r;
   Linkage loose_block = make_spatial_slider_crank(JointKind::kSpherical);  // its slide carries the block
   loose_block.joints[1].clearance = slot;
-  for (const char* const name : {"slide_y", "slide_z", "turn_x", "turn_z", "turn_y"}) loose_block.joints[1].freedoms.push_back({.name = name});
+  for (const char* const name : {"slide_y", "slide_z", "turn_x", "turn_z", "turn_y"})
+    loose_block.joints[1].freedoms.push_back({.name = name});
   Linkage loose_cut_block = make_spatial_slider_crank(JointKind::kPrismatic);
   loose_cut_block.joints.back().clearance = slot;
   RpsupParameters guide;  // the yoke about the guide, three rings
@@ -110,7 +158,8 @@ std::vector<MechanismCase> make_mechanism_cases() {
   flexible_guide.coupler = Coupler::kFlexible;
   RpsupParameters ideal_guide = flexible_guide;
   ideal_guide.c_r = 0.0;
-  RpsupParameters turned_guide = guide;  // a tree that no code is specialised for; the acceleration of its drive jumps elsewhere
+  RpsupParameters turned_guide =
+      guide;  // a tree that no code is specialised for; the acceleration of its drive jumps elsewhere
   turned_guide.guide_angle = 0.3;
   turned_guide.crank_start = 0.4;
   turned_guide.rod_law = StrokeLaw::kParabolic;
@@ -118,8 +167,13 @@ std::vector<MechanismCase> make_mechanism_cases() {
   const Controller controller{.target = Harmonic{0.3, 2.0, 5.0, 0.4}, .proportional = 30.0, .integral = 50.0};
   forced.crank_actuator = ForceLaw{Signal(Harmonic{1.0, 0.5, 6.0, 0.2})};
   controlled.crank_actuator = controller;
-  motorised.crank_actuator = DcMotor{.voltage = controller, .torque_constant = 0.5, .resistance = 0.8, .inductance = 0.02, .gear_ratio = 3.0,
-                                     .gear_efficiency = 0.8, .rotor_inertia = 1e-3};
+  motorised.crank_actuator = DcMotor{.voltage = controller,
+                                     .torque_constant = 0.5,
+                                     .resistance = 0.8,
+                                     .inductance = 0.02,
+                                     .gear_ratio = 3.0,
+                                     .gear_efficiency = 0.8,
+                                     .rotor_inertia = 1e-3};
   RpsupParameters dashpots = elements;
   dashpots.normal_law = NormalForceLaw::kKelvinVoigt;
   constexpr double kPressed = 3e-4, kFine = 2e-8, kCoarse = 1e-5;
@@ -128,7 +182,8 @@ std::vector<MechanismCase> make_mechanism_cases() {
     Rpsup rpsup = build_rpsup(parameters);
     return MechanismCase{std::move(name), std::move(rpsup.mechanism), rpsup.layout.slider, offset, step};
   };
-  const auto of_tilted_coupler = [](std::string name, const RpsupParameters& parameters, double offset, double step) {
+  const auto of_tilted_coupler = [](std::string name, const RpsupParameters& parameters, double offset,
+                                    double step) {
     Rpsup rpsup = build_rpsup(parameters);
     return MechanismCase{std::move(name), std::move(rpsup.mechanism), rpsup.layout.rod + 1, offset, step};
   };
@@ -139,37 +194,54 @@ std::vector<MechanismCase> make_mechanism_cases() {
   };
   const Linkage loose = make_loose_loops(*build_rpsup(rigid).mechanism.cut_joints[0].clearance);
   const Linkage loose_elements = make_loose_loops(*build_rpsup(elements).mechanism.cut_joints[0].clearance);
-  constexpr double kPressing = -1.0;  // journals that come nearer: the normal force of those that leave so fast is none
-  const auto with_rings = [&](const std::vector<int>& rings) {  // each with a bristle pair: pairs are solved several at once, across joints
+  constexpr double kPressing =
+      -1.0;  // journals that come nearer: the normal force of those that leave so fast is none
+  const auto with_rings = [&](const std::vector<int>& rings) {  // each with a bristle pair: pairs are solved
+                                                                // several at once, across joints
     Mechanism mechanism = build_linkage(loose).mechanism;
     std::size_t next = 0;
     for (CutJoint& joint : mechanism.cut_joints)
       if (joint.clearance) joint.clearance->n_r = rings.at(next++);
     return mechanism;
   };
-  return {of_rpsup("rigid", rigid, kPressed, kFine), of_rpsup("flexible", flexible, kPressed, kFine), of_rpsup("apart", apart, 0.0, 0.1 * kCoarse),
-          of_rpsup("elements", elements, kPressed, kFine), of_rpsup("flexible_elements", flexible_elements, kPressed, kFine),
+  return {of_rpsup("rigid", rigid, kPressed, kFine),
+          of_rpsup("flexible", flexible, kPressed, kFine),
+          of_rpsup("apart", apart, 0.0, 0.1 * kCoarse),
+          of_rpsup("elements", elements, kPressed, kFine),
+          of_rpsup("flexible_elements", flexible_elements, kPressed, kFine),
           of_rpsup("elasto_plastic", plastic, kPressed, kFine),
-          of_rpsup("ambrosio", no_bristles, kPressed, kFine), of_rpsup("coulomb", smooth, kPressed, kFine),
-          of_rpsup("worn", worn, kPressed, 0.2 * kFine), of_rpsup("drive_rows", rows, kPressed, kFine),
+          of_rpsup("ambrosio", no_bristles, kPressed, kFine),
+          of_rpsup("coulomb", smooth, kPressed, kFine),
+          of_rpsup("worn", worn, kPressed, 0.2 * kFine),
+          of_rpsup("drive_rows", rows, kPressed, kFine),
           of_rpsup("rigid_drive_rows", rigid_rows, kPressed, kFine),
-          of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse), of_rpsup("ideal_rigid", ideal_rigid, 1e-6, kCoarse),
+          of_rpsup("ideal_flexible", ideal, 1e-6, kCoarse),
+          of_rpsup("ideal_rigid", ideal_rigid, 1e-6, kCoarse),
           of_rpsup("ideal_drive_rows", all_rows, 1e-6, kCoarse),
-          of_tilted_coupler("guide", guide, kTilted, kFine), of_tilted_coupler("flexible_guide", flexible_guide, kTilted, kFine),
-          of_tilted_coupler("ideal_guide", ideal_guide, 1e-6, kCoarse), of_tilted_coupler("turned_guide", turned_guide, kTilted, kFine),
-          of_tilted_coupler("forced", forced, kTilted, kFine), of_tilted_coupler("controlled", controlled, kTilted, kFine),
+          of_tilted_coupler("guide", guide, kTilted, kFine),
+          of_tilted_coupler("flexible_guide", flexible_guide, kTilted, kFine),
+          of_tilted_coupler("ideal_guide", ideal_guide, 1e-6, kCoarse),
+          of_tilted_coupler("turned_guide", turned_guide, kTilted, kFine),
+          of_tilted_coupler("forced", forced, kTilted, kFine),
+          of_tilted_coupler("controlled", controlled, kTilted, kFine),
           of_tilted_coupler("motorised", motorised, kTilted, kFine),
           of_rpsup("elements_with_dashpots", dashpots, kPressed, kFine),
-          of_rpsup("flexible_links", links, kPressed, kFine), of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
-          {"loose_loops", build_linkage(loose).mechanism, 1, 3e-4, kFine}, {"loose_rocker", build_linkage(loose).mechanism, 3, 2e-3, kFine},
+          of_rpsup("flexible_links", links, kPressed, kFine),
+          of_rpsup("flexible_links_rows", links_rows, 1e-6, kCoarse),
+          {"loose_loops", build_linkage(loose).mechanism, 1, 3e-4, kFine},
+          {"loose_rocker", build_linkage(loose).mechanism, 3, 2e-3, kFine},
           {"loose_elements", build_linkage(loose_elements).mechanism, 3, 2e-3, kFine},
-          {"odd_rings", with_rings({3, 2}), 3, 2e-3, kFine, kPressing}, {"odd_rings_apart", with_rings({3, 2}), 1, 3e-4, kFine, kPressing},
+          {"odd_rings", with_rings({3, 2}), 3, 2e-3, kFine, kPressing},
+          {"odd_rings_apart", with_rings({3, 2}), 1, 3e-4, kFine, kPressing},
           {"odd_rings_both", with_rings({5, 3}), 3, 2e-3, kFine, kPressing},
           of_linkage("cut_ball", make_spatial_slider_crank(JointKind::kSpherical), 1e-5, 1.0),
           of_linkage("cut_cross", make_spatial_slider_crank(JointKind::kUniversal), 1e-5, 1.0),
           of_linkage("cut_slide", make_spatial_slider_crank(JointKind::kPrismatic), 1e-5, 1.0),
-          of_linkage("screw", make_screw(), 1e-5, 1.0), of_linkage("sprung", sprung, 1e-5, 1.0),
-          of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0), of_linkage("driven_screw", driven_screw, 1e-5, 1.0), of_linkage("actuated", actuated, 1e-5, 1.0),
+          of_linkage("screw", make_screw(), 1e-5, 1.0),
+          of_linkage("sprung", sprung, 1e-5, 1.0),
+          of_linkage("sprung_on_drive", sprung_on_drive, 1e-5, 1.0),
+          of_linkage("driven_screw", driven_screw, 1e-5, 1.0),
+          of_linkage("actuated", actuated, 1e-5, 1.0),
           of_linkage("loaded", loaded, 1e-5, 1.0),
           {"loose_ball", build_linkage(loose_ball).mechanism, 1, kPressed, kFine},
           {"loose_block", build_linkage(loose_block).mechanism, 2, kPressed, kFine},
@@ -181,14 +253,17 @@ std::vector<MechanismCase> make_mechanism_cases() {
           of_linkage("dependent_slot", make_quick_return(JointKind::kPrismatic), 0.0, 0.0)};
 }
 
-MovingMechanism::MovingMechanism(const MechanismCase& c, std::string_view instruction_set) : system(c.mechanism, instruction_set) {
+MovingMechanism::MovingMechanism(const MechanismCase& c, std::string_view instruction_set)
+    : system(c.mechanism, instruction_set) {
   Evaluation at = system.make_evaluation();
   LoopClosure closure(c.mechanism);
   EXPECT_TRUE(closure.assemble(kTime, at));
   at.q[c.pressed] += c.offset;
-  for (Eigen::Index i = 0; i < at.qd.size(); ++i) at.qd[i] += c.disturbance * (0.1 * static_cast<double>(i % 3 - 1) + 0.02);
+  for (Eigen::Index i = 0; i < at.qd.size(); ++i)
+    at.qd[i] += c.disturbance * (0.1 * static_cast<double>(i % 3 - 1) + 0.02);
   for (const FrameIndex i : system.free_coordinates())
-    if (c.mechanism.coordinates[static_cast<std::size_t>(i)].stiffness != 0.0) at.q[i] += 1e-3 * (i % 4 - 1.5);
+    if (c.mechanism.coordinates[static_cast<std::size_t>(i)].stiffness != 0.0)
+      at.q[i] += 1e-3 * (i % 4 - 1.5);
   y = system.make_state(at.q, at.qd);
   f = Eigen::VectorXd::Zero(y.size());
   (void)system.calc_derivative(kTime, y, f, at);
@@ -198,7 +273,9 @@ MovingMechanism::MovingMechanism(const MechanismCase& c, std::string_view instru
     f.setZero(y.size());
   }
   for (Eigen::Index b = 2 * system.free_count(); b < system.controlled_size(); ++b)
-    if (f[b] != 0.0) y[b] = std::copysign(1e-4 * static_cast<double>(1 + b % 3), f[b]);  // only what touches has one; bent by its sliding
+    if (f[b] != 0.0)
+      y[b] = std::copysign(1e-4 * static_cast<double>(1 + b % 3),
+                           f[b]);  // only what touches has one; bent by its sliding
   evaluate(kTime, y, f);
 }
 

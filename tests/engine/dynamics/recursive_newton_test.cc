@@ -18,8 +18,9 @@ namespace {
 std::vector<MechanismCase> open_chains() {
   std::vector<MechanismCase> cases = make_mechanism_cases();
   std::erase_if(cases, [](const MechanismCase& c) {
-    const bool constrained = c.mechanism.drive_rows == DriveRows::kMultipliers || !c.mechanism.couplings.empty() ||
-                             std::ranges::any_of(c.mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
+    const bool constrained =
+        c.mechanism.drive_rows == DriveRows::kMultipliers || !c.mechanism.couplings.empty() ||
+        std::ranges::any_of(c.mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
     return constrained || !c.mechanism.springs.empty() || !c.mechanism.actuations.empty();
   });
   return cases;
@@ -31,7 +32,8 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
   MovingMechanism moving(GetParam(), {});
   MotionSystem& system = moving.system;
   ASSERT_TRUE(system.can_solve_recursively());
-  constexpr double kSame = 1e-7;  // a stiff contact is put on what moves without it, which costs digits: 1e-8 where a millimetre is pressed in
+  constexpr double kSame = 1e-7;  // a stiff contact is put on what moves without it, which costs digits: 1e-8
+                                  // where a millimetre is pressed in
   for (const double shift : {3e2, 3e4, 3e6}) {
     Eigen::VectorXd right = moving.f;
     for (Eigen::Index i = 0; i < right.size(); ++i) right[i] += static_cast<double>(i % 5 - 2);
@@ -48,11 +50,13 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrix) {
     const Eigen::Index free = system.free_count();
     const auto expect_same = [&](Eigen::Index first, Eigen::Index count, const char* part) {
       const double scale = solutions[0].segment(first, count).cwiseAbs().maxCoeff();
-      EXPECT_LE((solutions[1] - solutions[0]).segment(first, count).cwiseAbs().maxCoeff(), kSame * scale) << part << " at a shift of " << shift;
+      EXPECT_LE((solutions[1] - solutions[0]).segment(first, count).cwiseAbs().maxCoeff(), kSame * scale)
+          << part << " at a shift of " << shift;
     };
     expect_same(0, free, "coordinates");
     expect_same(free, free, "rates");
-    if (system.controlled_size() > 2 * free) expect_same(2 * free, system.controlled_size() - 2 * free, "bristles");
+    if (system.controlled_size() > 2 * free)
+      expect_same(2 * free, system.controlled_size() - 2 * free, "bristles");
     expect_same(system.controlled_size(), right.size() - system.controlled_size(), "works");
   }
 }
@@ -79,7 +83,8 @@ TEST_P(OpenChains, BodyByBodyIsTheSameAsByTheMatrixWithAComplexShift) {
     const auto expect_same = [&](Eigen::Index first, Eigen::Index count, const char* part) {
       if (count == 0) return;
       const double scale = solutions[0].segment(first, count).cwiseAbs().maxCoeff();
-      EXPECT_LE((solutions[1] - solutions[0]).segment(first, count).cwiseAbs().maxCoeff(), kSame * scale) << part << " at a shift of " << shift;
+      EXPECT_LE((solutions[1] - solutions[0]).segment(first, count).cwiseAbs().maxCoeff(), kSame * scale)
+          << part << " at a shift of " << shift;
     };
     expect_same(0, free, "coordinates");
     expect_same(free, free, "rates");
@@ -99,7 +104,10 @@ TEST_P(OpenChains, WhatIsHeldOutlivesOtherEvaluations) {
     system.solve_in_place(x);
     return x;
   };
-  const auto linearise = [&] { ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, NewtonSolver::kRecursive), EvaluationStatus::kOk); };
+  const auto linearise = [&] {
+    ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, NewtonSolver::kRecursive),
+              EvaluationStatus::kOk);
+  };
   linearise();
   const Eigen::VectorXd first = solve(1e5, [] {}), second = solve(3e4, [] {});
   const auto go_elsewhere = [&] {
@@ -118,7 +126,10 @@ TEST_P(OpenChains, ARealAndAComplexShiftAreHeldSideBySide) {
   MovingMechanism moving(GetParam(), {});
   MotionSystem& system = moving.system;
   constexpr std::complex<double> kShift(2e4, 3e4);
-  const auto linearise = [&] { ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, NewtonSolver::kRecursive), EvaluationStatus::kOk); };
+  const auto linearise = [&] {
+    ASSERT_EQ(system.linearise(MovingMechanism::kTime, moving.y, NewtonSolver::kRecursive),
+              EvaluationStatus::kOk);
+  };
   const auto solve_real = [&] {
     Eigen::VectorXd x = moving.f;
     system.solve_in_place(x);
@@ -146,7 +157,8 @@ TEST_P(OpenChains, ARealAndAComplexShiftAreHeldSideBySide) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, OpenChains, testing::ValuesIn(open_chains()), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Cases, OpenChains, testing::ValuesIn(open_chains()),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace engine
