@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/dynamics/constraints.h"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "engine/kinematics/plain_frame.h"
@@ -27,18 +29,28 @@ Eigen::Matrix3d calc_relative_rotation(const Frame<double, double>& b, const Fra
   return matrix(b.R).transpose() * matrix(j.R);
 }
 
+/// Rotation vector of the smallest turn of the z axis into a direction.
+Eigen::Vector3d calc_turn_of_z(const Eigen::Vector3d& direction) {
+  const double sine = std::hypot(direction.x(), direction.y());
+  const double angle = std::atan2(sine, direction.z());
+  if (sine == 0.0) return {angle, 0.0, 0.0};  // none, or half a turn, for which any axis across will do
+  return angle * (Eigen::Vector3d(-direction.y(), direction.x(), 0.0) / sine);
+}
+
+Eigen::Vector3d calc_rotation_vector(const Eigen::Matrix3d& R) {
+  const Eigen::AngleAxisd rotation(R);
+  return rotation.angle() * rotation.axis();
+}
+
 /// Replaces the residuals of axes: see AxisResiduals::kRotationVectors.
 void measure_by_rotation_vector(const CutRows& rows, const Frame<double, double>& b,
                                 const Frame<double, double>& j, JointResidual<double, double>& residual) {
   if (rows.axes < 2) return;
   const Eigen::Matrix3d R = calc_relative_rotation(b, j);
-  const Eigen::AngleAxisd rotation =
-      rows.axes == 3
-          ? Eigen::AngleAxisd(R)
-          : Eigen::AngleAxisd(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), R.col(2)));
+  const Eigen::Vector3d rotation = rows.axes == 3 ? calc_rotation_vector(R) : calc_turn_of_z(R.col(2));
   const Vec3<double>* const along[] = {&b.R.x, &b.R.y, &b.R.z};
   for (int k = 0; k < rows.axes; ++k) {
-    residual.Phi[rows.positions + k] = rotation.angle() * rotation.axis()[k];
+    residual.Phi[rows.positions + k] = rotation[k];
     residual.moment_axis[k] = *along[k];
   }
 }
