@@ -195,7 +195,7 @@ TEST(StrokeLaws, LetNoStepCrossAJump) {
         p.coupler =
             clearance > 0.0 || integrator == Integrator::kDopri5 ? Coupler::kRigid : Coupler::kFlexible;
         p.friction = FrictionLaw::kNone;
-        const RunResult run = run_rpsup(p, {.duration = 1.1,
+        const RunResult run = run_rpsup(p, {.duration = 0.8,
                                             .integrator = integrator,
                                             .relative_tolerance = 1e-8,
                                             .absolute_tolerance = 1e-9});
@@ -225,7 +225,7 @@ TEST(StrokeLaws, LetFixedStepsEndOnAJump) {
 // Jumps a rounding beside the grid of the steps, and beside the run-up's end, from which the ideal peak is sought.
 TEST(StrokeLaws, JumpAtInstantsBesideTheGrid) {
   for (const StrokeLaw law : {StrokeLaw::kCosine, StrokeLaw::kParabolic})
-    for (const double stroke_time : {0.1, 0.14, 0.15, 0.3, 0.4, 0.7})
+    for (const double stroke_time : {0.1, 0.14, 0.3, 0.7})
       for (const double pause : {0.1, 0.34, 0.5})
         for (const double run_up : {0.2, 1.5, 2.0}) {
           RpsupParameters p;

@@ -121,13 +121,13 @@ TEST(SweepOfLargeParameters, MayHaveFewerJobsTheLargerTheyAre) {
       << refusal_with(10'000);
   // Also where the cases that follow are the large ones.
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < 10; ++i)
     cases.push_back({{"wear_depth_um", std::vector<std::vector<double>>(9, std::vector<double>(360, 0.1 + 1e-3 * i))}});
   nlohmann::ordered_json many = request;
   many["parameters"].erase("wear_depth_um");
   many["cases"] = cases;
   many["sweep"]["crank_velocity_rad_s"]["count"] = 100;
-  EXPECT_THROW(static_cast<void>(jobs::plan_sweep(many, 10'000)), jobs::InvalidRequest);
+  EXPECT_THROW(static_cast<void>(jobs::plan_sweep(many, 1'000)), jobs::InvalidRequest);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace jobs_tests {
 namespace {
 
-constexpr int kSweeps = 60;
+constexpr int kSweeps = 40;
 
 /// What the disk held at a moment, and what clients had been told by then.
 struct Loss {
