@@ -130,16 +130,15 @@ void LoopClosure::calc_rates(Evaluation& at) {
 }
 
 bool LoopClosure::assemble(double t, Evaluation& at) {
-  if (close_from_guess(t, at) && turned_over_ < 0) return assemble_rates(at);
+  const bool closes = close_from_guess(t, at);
+  if (closes && turned_over_ < 0) return assemble_rates(at);
   const Evaluation found = at;
-  if (turned_over_ >= 0) {
-    if (close_upright(t, at) && turned_over_ < 0) return assemble_rates(at);
-    at = found;
-    calc_positions(at);
-    turned_over_ = constraints_.find_turned_over(at.frames);
-    return false;
-  }
-  return close_within_clearances(at) && assemble_rates(at);
+  // Products of axes are zero after a half turn as well, and pull nowhere where an axis is a right angle off.
+  if (close_by_rotations(t, at) && turned_over_ < 0) return assemble_rates(at);
+  at = found;
+  calc_positions(at);
+  turned_over_ = closes ? constraints_.find_turned_over(at.frames) : -1;
+  return !closes && close_within_clearances(at) && assemble_rates(at);
 }
 
 void LoopClosure::set_guess(double t, Evaluation& at) const {
@@ -161,8 +160,8 @@ bool LoopClosure::close_from_guess(double t, Evaluation& at) {
   return closed;
 }
 
-/// From the guess as well, with residuals that tell a half turn.
-bool LoopClosure::close_upright(double t, Evaluation& at) {
+/// From the guess as well, with residuals that grow with the angle between axes.
+bool LoopClosure::close_by_rotations(double t, Evaluation& at) {
   constexpr double kNearlyClosed = 1e-6;  // of Phi, [m] and [1]
   set_guess(t, at);
   const bool closed = close(at, AxisResiduals::kRotationVectors, kNearlyClosed, all_rows_) &&

@@ -106,7 +106,7 @@ class LoopClosure {
   void find_active_rows();
   void set_guess(double t, Evaluation& at) const;
   [[nodiscard]] bool close_from_guess(double t, Evaluation& at);
-  [[nodiscard]] bool close_upright(double t, Evaluation& at);
+  [[nodiscard]] bool close_by_rotations(double t, Evaluation& at);
   [[nodiscard]] bool close_within_clearances(Evaluation& at);
   [[nodiscard]] bool close(Evaluation& at, AxisResiduals axes, double tolerance,
                            const std::vector<Eigen::Index>& rows);

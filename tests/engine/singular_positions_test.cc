@@ -336,6 +336,18 @@ TEST(HalfTurn, IsAGap) {
   EXPECT_EQ(refusal(make_turned(JointKind::kRevolute, z, std::numbers::pi)), "");
 }
 
+// Axes a right angle off, where scalar products pull nowhere.
+TEST(RightAngle, ClosesFromTheGuess) {
+  for (const JointKind kind : {JointKind::kWeld, JointKind::kPrismatic, JointKind::kRevolute, JointKind::kCylindrical})
+    for (const int axis : {0, 1, 2})
+      for (const double angle : {-0.5 * std::numbers::pi, 0.5 * std::numbers::pi}) {
+        Linkage linkage = make_turned(kind, Eigen::Vector3d::Unit(axis), angle);
+        linkage.joints[0].kind = JointKind::kSpherical;
+        linkage.joints[0].freedoms = {{.name = "z"}, {.name = "y"}, {.name = "x"}};
+        EXPECT_EQ(refusal(linkage), "") << static_cast<int>(kind) << " about axis " << axis;
+      }
+}
+
 TEST(SmallMotion, KeepsItsEnergy) {
   Linkage linkage;
   linkage.gravity_W.setZero();
