@@ -8,7 +8,10 @@
 namespace engine {
 
 JointReactions::JointReactions(const Mechanism& mechanism)
-    : mechanism_(mechanism), inverse_dynamics_(mechanism), frames_(mechanism.coordinates.size()) {}
+    : mechanism_(mechanism),
+      inverse_dynamics_(mechanism),
+      frames_(mechanism.coordinates.size()),
+      ground_(ground_motion(mechanism)) {}
 
 void JointReactions::calc(const Evaluation& at) {
   calc_frame_motions(mechanism_, at.q, at.qd, at.qdd,
@@ -31,6 +34,7 @@ void JointReactions::add_spring(const PointSpring& spring) {
 }
 
 void JointReactions::add_body_load(const BodyLoad& load, double t) {
+  if (load.frame == kGround) return;
   const FrameMotion& body = frames_[static_cast<std::size_t>(load.frame)];
   const double value = calc_signal(load.law, t).value;
   const Eigen::Matrix3d R = load.follows_body ? body.R : Eigen::Matrix3d(Eigen::Matrix3d::Identity());

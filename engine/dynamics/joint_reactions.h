@@ -17,9 +17,9 @@ class JointReactions {
 
   void calc(const Evaluation& at);
 
-  /// After calc(): motion of a coordinate's frame, with its accelerations.
+  /// After calc(): motion of a coordinate's frame, with its accelerations, or of the ground.
   [[nodiscard]] const FrameMotion& motion(FrameIndex frame) const {
-    return frames_[static_cast<std::size_t>(frame)];
+    return frame == kGround ? ground_ : frames_[static_cast<std::size_t>(frame)];
   }
 
   /// After calc(): about the origin of the joint's last frame, in W. With it come the joint's drives and
@@ -36,6 +36,7 @@ class JointReactions {
   const Mechanism& mechanism_;
   InverseDynamics inverse_dynamics_;
   std::vector<FrameMotion> frames_;
+  FrameMotion ground_;
 };
 
 }  // namespace engine
