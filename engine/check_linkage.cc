@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iomanip>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -237,11 +238,12 @@ std::string describe_open_loop(const LoopClosure& closure, bool loose) {
     return "is not within its clearance at t = 0: a start of one of its coordinates, or of "
            "another joint's, is beyond the play (that along the axis is "
            "axial_clearance_mm), or the loops do not close";
-  return "does not close at t = 0: the nearest position found leaves a gap of " +
-         std::to_string(closure.residual()) +
-         " m (or between right angles); other lengths, or a guess or start of a "
-         "coordinate nearer to the closed "
-         "position, may help";
+  std::ostringstream text;
+  text << "does not close at t = 0: the nearest position found leaves a gap of " << std::setprecision(3)
+       << closure.residual()
+       << " m (or between right angles); other lengths, a guess or start of a coordinate nearer to the "
+          "closed position, or fewer starts, may help";
+  return text.str();
 }
 
 [[noreturn]] void refuse_open_loops(const Linkage& linkage, const BuiltLinkage& built,

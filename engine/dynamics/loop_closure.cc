@@ -63,6 +63,7 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
       inverse_dynamics_(ideal_),
       J_(unknown_.size()) {
   list_rigid_rows(mechanism.cut_joints);
+  list_position_rows(mechanism.cut_joints);
   std::ranges::copy_if(mechanism.cut_joints, std::back_inserter(clearance_joints_),
                        [](const CutJoint& joint) { return joint.clearance.has_value(); });
   all_rows_.resize(static_cast<std::size_t>(constraints_.count()));
@@ -88,6 +89,17 @@ void LoopClosure::list_rigid_rows(const std::vector<CutJoint>& joints) {
     rigid_rows_.push_back(row);
     blocks_.push_back(row);
   }
+}
+
+void LoopClosure::list_position_rows(const std::vector<CutJoint>& joints) {
+  Eigen::Index row = 0;
+  for (const CutJoint& joint : joints) {
+    const CutRows rows = rows_of(joint.kind);
+    for (int k = 0; k < rows.positions; ++k) position_rows_.push_back(row + k);
+    row += rows.count();
+    reach_ = std::max({reach_, joint.bearing.p.norm(), joint.journal.p.norm()});
+  }
+  for (const Coordinate& c : ideal_.coordinates) reach_ = std::max(reach_, c.com.norm());
 }
 
 /// Rows that no coordinate moves, those out of the plane of a planar linkage say, have no entries in any
@@ -122,6 +134,8 @@ void LoopClosure::set_drives(double t, Evaluation& at) const {
 void LoopClosure::calc_positions(Evaluation& at, AxisResiduals axes) {
   calc_frame_poses(ideal_, at.q, at.frames);
   constraints_.calc_positions(at.q, at.frames, axes);
+  size_ = reach_;
+  for (const FrameMotion& frame : at.frames) size_ = std::max(size_, reach_ + frame.p.norm());
 }
 
 void LoopClosure::calc_rates(Evaluation& at) {
@@ -138,7 +152,7 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
   at = found;
   calc_positions(at);
   turned_over_ = closes ? constraints_.find_turned_over(at.frames) : -1;
-  return !closes && close_within_clearances(at) && assemble_rates(at);
+  return !closes && close_rigid_joints(at) && assemble_rates(at);
 }
 
 void LoopClosure::set_guess(double t, Evaluation& at) const {
@@ -155,7 +169,7 @@ void LoopClosure::set_guess(double t, Evaluation& at) const {
 
 bool LoopClosure::close_from_guess(double t, Evaluation& at) {
   set_guess(t, at);
-  const bool closed = close(at, AxisResiduals::kProducts, kClosed, all_rows_);
+  const bool closed = close(at, AxisResiduals::kProducts, kClosed, all_rows_, unknown_);
   turned_over_ = closed ? constraints_.find_turned_over(at.frames) : -1;
   return closed;
 }
@@ -164,33 +178,50 @@ bool LoopClosure::close_from_guess(double t, Evaluation& at) {
 bool LoopClosure::close_by_rotations(double t, Evaluation& at) {
   constexpr double kNearlyClosed = 1e-6;  // of Phi, [m] and [1]
   set_guess(t, at);
-  const bool closed = close(at, AxisResiduals::kRotationVectors, kNearlyClosed, all_rows_) &&
-                      close(at, AxisResiduals::kProducts, kClosed, all_rows_);
+  const bool closed = close(at, AxisResiduals::kRotationVectors, kNearlyClosed, all_rows_, unknown_) &&
+                      close(at, AxisResiduals::kProducts, kClosed, all_rows_, unknown_);
   turned_over_ = constraints_.find_turned_over(at.frames);
   return closed;
 }
 
-/// From a position in which given coordinates keep journals off the centres of their bearings: closes the
-/// joints without clearance, in the nearest position. False unless every journal is then in its bore.
-bool LoopClosure::close_within_clearances(Evaluation& at) {
-  if (clearance_joints_.empty() || !close(at, AxisResiduals::kProducts, kClosed, rigid_rows_)) return false;
+/// From a position in which given coordinates keep journals off the centres of their bearings, or leave
+/// loops open by their last digits: closes the joints without clearance, in the nearest position. False
+/// unless every journal is then in its bore.
+bool LoopClosure::close_rigid_joints(Evaluation& at) {
+  const auto close_by = [&](const std::vector<FrameIndex>& moved) {
+    return close(at, AxisResiduals::kProducts, kClosed, rigid_rows_, moved);
+  };
+  const bool closed = (!clearance_joints_.empty() && close_by(unknown_)) ||
+                      (is_closed_but_for_rounding() && close_by(find_coordinates(ideal_, is_any)));
+  if (!closed) return false;
   turned_over_ = constraints_.find_turned_over(at.frames);
   return turned_over_ < 0 && std::ranges::all_of(clearance_joints_, [&](const CutJoint& joint) {
            return is_in_bore(joint, at.frames);
          });
 }
 
+/// Whether the rigid joints are open by no more than what starts with seven digits leave.
+bool LoopClosure::is_closed_but_for_rounding() const {
+  return std::ranges::all_of(rigid_rows_, [&](Eigen::Index row) {
+    const bool is_position = std::ranges::binary_search(position_rows_, row);
+    return std::abs(constraints_.Phi[row]) <= kRounded * (is_position ? size_ : 1.0);
+  });
+}
+
+double LoopClosure::closed() const { return kClosed * std::max(1.0, 0.1 * size_); }
+
 /// Newton's method from the position that `at` holds, for some of the rows.
+/// @param tolerance  of Phi, for mechanisms of up to 10 m  @param moved  coordinates that may move
 bool LoopClosure::close(Evaluation& at, AxisResiduals axes, double tolerance,
-                        const std::vector<Eigen::Index>& rows) {
+                        const std::vector<Eigen::Index>& rows, const std::vector<FrameIndex>& moved) {
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     calc_positions(at, axes);
     const Eigen::VectorXd gaps = constraints_.Phi(rows);
-    if (gaps.size() == 0 || gaps.cwiseAbs().maxCoeff() < tolerance) return true;
-    if (unknown_.empty()) return false;
-    Eigen::VectorXd step = -decompose(calc_columns(unknown_)(rows, Eigen::all)).solve(gaps);
+    if (gaps.size() == 0 || gaps.cwiseAbs().maxCoeff() < tolerance / kClosed * closed()) return true;
+    if (moved.empty()) return false;
+    Eigen::VectorXd step = -decompose(calc_columns(moved)(rows, Eigen::all)).solve(gaps);
     step *= std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
-    for (std::size_t k = 0; k < unknown_.size(); ++k) at.q[unknown_[k]] += step[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < moved.size(); ++k) at.q[moved[k]] += step[static_cast<Eigen::Index>(k)];
   }
   return false;
 }
@@ -199,34 +230,52 @@ bool LoopClosure::assemble_rates(Evaluation& at) {
   calc_rates(at);
   if (constraints_.count() == 0) return true;
   const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
-  redundant_ = rigid - rank_of(calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all));
+  redundant_ = rigid - rank_of(calc_rigid_rows());
   // A journal that has clearance may also move in its bearing from the start.
   rates_fit_ = find_rates(all_rows_, at) || find_rates(rigid_rows_, at);
   return rates_fit_;
 }
 
-/// Minimum-norm solution for the rates that are not given. False if the given rates violate the constraint
-/// rows.
+/// Minimum-norm solution for the rates that are not given. Given ones move as well by what their last digits
+/// leave. False if they violate the constraint rows.
 bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at) {
   constexpr double kFits = 1e-9;  // of the residual that the given rates alone leave, [m/s] and [1/s]
   const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
   for (const FrameIndex i : open) at.qd[i] = 0.0;
   calc_rates(at);
   if (rows.empty()) return true;
-  const double given = constraints_.Phi_d(rows).cwiseAbs().maxCoeff();
-  if (!open.empty()) {
+  const auto residual = [&] { return constraints_.Phi_d(rows).cwiseAbs().maxCoeff(); };
+  const auto correct = [&](const std::vector<FrameIndex>& moved) {
+    if (moved.empty()) return;
     const Eigen::VectorXd rates =
-        -decompose(calc_columns(open)(rows, Eigen::all)).solve(constraints_.Phi_d(rows));
-    for (std::size_t k = 0; k < open.size(); ++k) at.qd[open[k]] = rates[static_cast<Eigen::Index>(k)];
+        -decompose(calc_columns(moved)(rows, Eigen::all)).solve(constraints_.Phi_d(rows));
+    for (std::size_t k = 0; k < moved.size(); ++k) at.qd[moved[k]] += rates[static_cast<Eigen::Index>(k)];
     calc_rates(at);
-  }
-  return constraints_.Phi_d(rows).cwiseAbs().maxCoeff() <= kFits * std::max(1.0, given);
+  };
+  const double allowed = kFits * std::max(1.0, residual());
+  correct(open);
+  if (residual() <= allowed) return true;
+  const double speed = (constraints_.Phi_q(rows, Eigen::all).cwiseAbs() * at.qd.cwiseAbs()).maxCoeff();
+  if (residual() > kRounded * std::max(1.0, speed)) return false;
+  correct(find_coordinates(ideal_, is_any));
+  return residual() <= allowed;
 }
 
 Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordinates) const {
   Eigen::MatrixXd columns(constraints_.count(), static_cast<Eigen::Index>(coordinates.size()));
   for (std::size_t k = 0; k < coordinates.size(); ++k)
     columns.col(static_cast<Eigen::Index>(k)) = constraints_.Phi_q.col(coordinates[k]);
+  return columns;
+}
+
+/// The same to find ranks of, without what rounding leaves of rows that hold by themselves.
+Eigen::MatrixXd LoopClosure::calc_columns_above_noise(const std::vector<FrameIndex>& coordinates) const {
+  constexpr double kNoise = 1e-13;  // of entries between axes; of those of positions, of the size
+  Eigen::MatrixXd columns = calc_columns(coordinates);
+  Eigen::VectorXd noise = Eigen::VectorXd::Constant(columns.rows(), kNoise);
+  noise(position_rows_) *= size_;
+  for (Eigen::Index r = 0; r < columns.rows(); ++r)
+    columns.row(r) = (columns.row(r).array().abs() < noise[r]).select(0.0, columns.row(r));
   return columns;
 }
 

@@ -103,13 +103,17 @@ class LoopClosure {
 
  private:
   void list_rigid_rows(const std::vector<CutJoint>& joints);
+  void list_position_rows(const std::vector<CutJoint>& joints);
   void find_active_rows();
   void set_guess(double t, Evaluation& at) const;
   [[nodiscard]] bool close_from_guess(double t, Evaluation& at);
   [[nodiscard]] bool close_by_rotations(double t, Evaluation& at);
-  [[nodiscard]] bool close_within_clearances(Evaluation& at);
+  [[nodiscard]] bool close_rigid_joints(Evaluation& at);
+  [[nodiscard]] bool is_closed_but_for_rounding() const;
   [[nodiscard]] bool close(Evaluation& at, AxisResiduals axes, double tolerance,
-                           const std::vector<Eigen::Index>& rows);
+                           const std::vector<Eigen::Index>& rows, const std::vector<FrameIndex>& moved);
+  /// Largest entry of Phi that counts as zero, [m] and [1].
+  [[nodiscard]] double closed() const;
   [[nodiscard]] bool is_left_to_drives() const;
   [[nodiscard]] bool is_determined_elsewhere(const Evaluation& assembled);
   [[nodiscard]] Eigen::Index calc_rank() const;
@@ -123,6 +127,7 @@ class LoopClosure {
   [[nodiscard]] std::optional<Eigen::VectorXd> close_from_perturbed(Eigen::VectorXd q);
   [[nodiscard]] Eigen::VectorXd minimum_norm_correction(const Eigen::VectorXd& gaps) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
+  [[nodiscard]] Eigen::MatrixXd calc_columns_above_noise(const std::vector<FrameIndex>& coordinates) const;
   void predict(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
   void calc_positions(Evaluation& at, AxisResiduals axes = AxisResiduals::kProducts);
@@ -147,6 +152,9 @@ class LoopClosure {
   std::vector<Eigen::Index> rigid_rows_;  ///< constraint rows of joints without clearance, and of couplings
   std::vector<Eigen::Index> blocks_;  ///< of each rigid row: rows of one joint's position, or of its axes
   std::vector<Eigen::Index> active_rows_;  ///< constraint rows that some coordinate moves
+  std::vector<Eigen::Index> position_rows_;  ///< constraint rows that are distances
+  double reach_ = 0.0;  ///< largest distance of a loop joint or a centre of mass from its frame's origin, [m]
+  double size_ = 0.0;   ///< the same of the last position, from the origin of W
   Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
   int turned_over_ = -1;

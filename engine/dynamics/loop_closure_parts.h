@@ -12,10 +12,11 @@
 // Helpers that the sources of LoopClosure share.
 namespace engine::loop_closure {
 
-constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions near 1 m
+constexpr double kClosed = 1e-13;  // of Phi, [m] and [1]: rounding of positions up to 10 m
 constexpr int kMaxIterations = 100;
 constexpr double kMaxStep = 0.5;  // of a Newton step, [rad] or [m]; a full one from afar may leave the branch
 constexpr double kDependent = 1e-9;  // of the largest pivot
+constexpr double kRounded = 1e-6;  // of the size of the mechanism, and of axes: what starts of 7 digits leave
 
 /// Coordinates of joints that are not driven and for which `holds` is true.
 template <typename Holds>

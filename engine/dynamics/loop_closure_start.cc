@@ -68,7 +68,7 @@ bool LoopClosure::is_left_to_drives() const {
 }
 
 /// Numerical rank of Phi_q of the unknown coordinates.
-Eigen::Index LoopClosure::calc_rank() const { return rank_of(calc_columns(unknown_)); }
+Eigen::Index LoopClosure::calc_rank() const { return rank_of(calc_columns_above_noise(unknown_)); }
 
 /// Whether the drives, when they have moved a little, determine the motion.
 bool LoopClosure::is_determined_elsewhere(const Evaluation& assembled) {
@@ -120,7 +120,7 @@ LoopClosure::Start LoopClosure::find_start(const Evaluation& assembled) {
 
 /// Rigid rows of Phi_q, of all coordinates that are not driven.
 Eigen::MatrixXd LoopClosure::calc_rigid_rows() const {
-  return calc_columns(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all);
+  return calc_columns_above_noise(find_coordinates(ideal_, is_any))(rigid_rows_, Eigen::all);
 }
 
 /// Weights that make the largest entry among the rows of a joint's position, or of its axes, one: ranks then

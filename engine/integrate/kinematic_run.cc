@@ -460,11 +460,11 @@ bool allows_kinematics(const Mechanism& mechanism, Integrator integrator) {
 std::string describe_change_point(const Mechanism& mechanism, const Evaluation& at) {
   std::ostringstream text;
   text << "the linkage is in a change point, from which it can follow its drives in more than one way: "
-       << "at t = " << at.t << " s, with ";
+       << "at t = " << at.t << " s";
   for (std::size_t k = 0; k < mechanism.drives.size(); ++k) {
     const FrameIndex d = mechanism.drives[k].coordinate;
     const Coordinate& driven = mechanism.coordinates[static_cast<std::size_t>(d)];
-    text << (k > 0 ? ", " : "") << driven.name << " at " << at.q[d]
+    text << (k > 0 ? ", " : ", with ") << driven.name << " at " << at.q[d]
          << (driven.motion == Motion::kRotation ? " rad" : " m");
   }
   return text.str();
