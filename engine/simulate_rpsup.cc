@@ -35,7 +35,7 @@ RunResult simulate_rpsup(const RpsupParameters& parameters, const RunOptions& op
       result.metrics = calc_rpsup_metrics(parameters, observer.metrics, sliding_work, outcome, ideal);
     }
   }
-  result.trajectory = observer.channels.finish(observer.metrics.work_turned_over());
+  result.trajectory = observer.channels.finish(observer.metrics.energy_scale());
   return result;
 }
 

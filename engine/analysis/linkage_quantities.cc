@@ -434,8 +434,8 @@ void LinkageQuantities::add_run_metrics() {
               .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.largest_imbalance(); });
   add_metric({.key = "energy_residual",
-              .help = "Ratio of energy_imbalance_j to the work turned over or, without drives and losses, to "
-                      "the largest kinetic energy or change of potential energy; null if nothing moves"},
+              .help = "Ratio of energy_imbalance_j to the work turned over, or to the largest kinetic energy "
+                      "or change of potential energy if that is larger; null if nothing moves"},
              [](const RunMetrics& metrics, const auto&) { return metrics.calc_energy_residual(); });
   add_metric(
       {.key = "redundant_constraints",

@@ -205,7 +205,8 @@ void add_energy_channels(std::vector<Channel>& channels) {
               [](const Evaluation& at) { return at.energy.drive_work.sum(); });
   channels.push_back(
       {.info = {.key = "energy_residual",
-                .help = "(E − E(0) − work of the drives + losses) / work turned over in the whole run"},
+                .help = "(E − E(0) − work of the drives + losses) / work turned over in the whole run, or "
+                        "the largest kinetic energy or change of potential energy if that is larger"},
        .kind = Channel::Kind::kImbalance});
 }
 
@@ -281,7 +282,8 @@ std::span<const QuantityInfo> metric_table() {
        .help = "Time integral of normal contact force × sliding speed over the whole run; by Archard's law "
                "worn volume = wear coefficient × sliding work; null without clearance"},
       {.key = "energy_residual",
-       .help = "Largest |E − E(0) − work of the drives + losses| / work turned over in the whole run"},
+       .help = "Largest |E − E(0) − work of the drives + losses| / work turned over in the whole run, or the "
+               "largest kinetic energy or change of potential energy if that is larger"},
       {.key = "steps", .help = "Number of accepted integration steps", .integer = true},
       {.key = "rhs_evaluations", .help = "Number of evaluations of the equations of motion", .integer = true},
   };

@@ -109,8 +109,8 @@ double RunMetrics::calc_speed_fluctuation(std::size_t k) const {
 }
 
 double RunMetrics::calc_energy_residual() const {
-  const double scale = turned_over_ > 0.0 ? turned_over_ : largest_in_motion_;
-  return scale > 0.0 ? largest_imbalance_ / scale : std::numeric_limits<double>::quiet_NaN();
+  return energy_scale() > 0.0 ? largest_imbalance_ / energy_scale()
+                              : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace engine

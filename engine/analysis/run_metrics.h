@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -75,10 +76,10 @@ class RunMetrics {
   [[nodiscard]] const EnergyAccount& last_energy() const { return last_energy_; }
   /// Largest |E - E(0) - work of the drives + losses|, [J]
   [[nodiscard]] double largest_imbalance() const { return largest_imbalance_; }
-  /// Work of the drives and losses, counted without sign: what an energy residual is measured against, [J].
-  [[nodiscard]] double work_turned_over() const { return turned_over_; }
-  /// The one over the other; without drives and losses, over the largest kinetic energy or change of
-  /// potential energy; not a number if nothing moves.
+  /// What an energy residual is measured against: work of the drives and losses, counted without sign, or
+  /// the largest kinetic energy or change of potential energy, whichever is larger, [J].
+  [[nodiscard]] double energy_scale() const { return std::max(turned_over_, largest_in_motion_); }
+  /// The one over the other; not a number if nothing moves.
   [[nodiscard]] double calc_energy_residual() const;
 
  private:

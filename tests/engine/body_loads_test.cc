@@ -93,5 +93,15 @@ TEST(BodyLoads, ASteadyAccelerationOfTheGroundIsAGravity) {
   for (const char* const key : {"theta_rad", "theta_rad_s", "x_m", "slide_force_y_n"}) EXPECT_NEAR(run.last(key), expected.last(key), 1e-6) << key;
 }
 
+// Next to no work is done: the energy in motion is the scale.
+TEST(EnergyResidual, IsMeasuredAgainstTheEnergyInMotionWhereItIsTheLarger) {
+  Linkage linkage = make_bar();
+  linkage.joints[0].freedoms[0].start_rate = 5.0;
+  for (const double damping : {0.0, 1e-12, 1e-9}) {
+    linkage.joints[0].freedoms[0].damping = damping;
+    EXPECT_LT(LinkageRun(linkage, {.duration = 1.0}).metric("energy_residual"), 1e-6) << damping;
+  }
+}
+
 }  // namespace
 }  // namespace engine
