@@ -21,7 +21,6 @@
 #include "jobs/results/plan_estimate.h"
 #include "jobs/optimisation/optimisation_study.h"
 #include "jobs/search/limit_study.h"
-#include "jobs/store/check_quota.h"
 #include "jobs/store/store.h"
 #include "jobs/studies/study_runner.h"
 #include "jobs/trajectories/trajectory_codec.h"
@@ -133,12 +132,24 @@ json Service::submit_sweep(const nlohmann::ordered_json& request, const std::str
 json Service::estimate_sweep(const nlohmann::ordered_json& request) const {
   const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
   if (!plan.executor.empty()) check_executor(plan.executor);
+  if (may_have_no_room(plan))
+    store_->queue.check_sweep(plan, request.dump(), options_.max_queued_jobs);
   SweepRow row;
   row.executor = plan.executor;
   json estimate = plan_estimate_json(plan, store_->reader.find_costs(plan), slots_for(row));
   estimate["max_jobs"] = options_.max_sweep_jobs;
-  estimate["free_bytes"] = find_bytes_left(options_.store);
+  estimate["free_bytes"] = store_->find_bytes_left();
   return estimate;
+}
+
+/// Whether the queue or the store might refuse a sweep: rows of the store take less than four times their
+/// parameters.
+bool Service::may_have_no_room(const SweepPlan& plan) const {
+  std::size_t bytes = 1U << 20U;
+  for (const PlannedJob& job : plan.jobs) bytes += 4 * (job.parameters.size() + job.swept.size());
+  const auto queued = static_cast<std::size_t>(store_->reader.read_queue_stats().queued);
+  return static_cast<std::int64_t>(bytes) > store_->find_bytes_left() ||
+         queued + plan.jobs.size() > options_.max_queued_jobs;
 }
 
 json Service::submit_job(const json& parameters, const std::string& key) {
@@ -285,7 +296,7 @@ void Service::check_room() const { store_->check_room(); }
 std::optional<SweepNews> Service::find_news(const std::string& sweep_id, std::int64_t after) const {
   const auto changes = store_->reader.find_changes(sweep_id, after);
   if (!changes) return std::nullopt;
-  SweepNews news{.progress = progress_json(with_parts_done(changes->sweep), slots_for(changes->sweep),
+  SweepNews news{.progress = progress_json(with_parts_done(changes->sweep), slots_at_work(changes->sweep),
                                            options_.executor),
                  .ended = has_ended(changes->sweep.counts), .jobs = {}};
   for (const EndedJob& job : changes->ended) news.jobs.push_back({job.change, ended_job_json(job)});
@@ -296,7 +307,11 @@ QueueStats Service::read_queue_stats() const { return store_->reader.read_queue_
 
 json Service::list_executors() const {
   json items = json::array();
-  for (const auto& executor : executors_) items.push_back(executor->status());
+  const std::string refusal = store_->refusal();
+  for (const auto& executor : executors_) {
+    items.push_back(executor->status());
+    if (!refusal.empty()) items.back()["problems"].push_back("results wait to be stored: " + refusal);
+  }
   if (options_.executor != kLocalExecutor) std::reverse(items.begin(), items.end());
   return {{"items", std::move(items)}};
 }
@@ -405,6 +420,10 @@ int Service::slots_for(const SweepRow& row) const {
                                                  : options_.threads;
 }
 
+int Service::slots_at_work(const SweepRow& row) const {
+  return store_->refusal().empty() ? slots_for(row) : 0;
+}
+
 SweepRow Service::with_parts_done(SweepRow row) const {
   const auto fill_in = [this](Costs& costs) {
     for (auto& [kind, cost] : costs) {
@@ -420,7 +439,7 @@ SweepRow Service::with_parts_done(SweepRow row) const {
 }
 
 json Service::sweep_resource(const SweepRow& row, Detail detail) const {
-  json sweep = sweep_json(with_parts_done(row), slots_for(row), detail, options_.executor);
+  json sweep = sweep_json(with_parts_done(row), slots_at_work(row), detail, options_.executor);
   if (row.executor.empty()) sweep["executor"] = options_.executor;
   return sweep;
 }

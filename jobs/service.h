@@ -43,6 +43,7 @@ class Store;
 class StudyRunner;
 struct Cancellation;
 struct Measurement;
+struct SweepPlan;
 struct TrajectoryExport;
 
 /// When a service begins to compute.
@@ -237,6 +238,9 @@ class Service {
   [[nodiscard]] bool has_cluster() const { return !options_.site.folder.empty(); }
   [[nodiscard]] ExecutorFilter filter_of(std::string_view executor) const;
   [[nodiscard]] int slots_for(const SweepRow& row) const;
+  /// The same; none while the store takes no results.
+  [[nodiscard]] int slots_at_work(const SweepRow& row) const;
+  [[nodiscard]] bool may_have_no_room(const SweepPlan& plan) const;
   /// With what the executors know of its running jobs, and of its rivals'.
   [[nodiscard]] SweepRow with_parts_done(SweepRow row) const;
   [[nodiscard]] nlohmann::json sweep_resource(const SweepRow& row, Detail detail) const;

@@ -122,6 +122,7 @@ std::optional<Work> calc_work_with_rivals(const SweepRow& row, std::string_view 
 std::optional<TimeLeft> estimate_time_left(const SweepRow& row, int threads,
                                            std::string_view default_executor) {
   if (has_ended(row.counts)) return TimeLeft{};
+  if (threads == 0) return std::nullopt;
   const auto work = calc_work_with_rivals(row, default_executor);
   if (!work) return std::nullopt;
   const double spread_s = 2.0 * std::sqrt(work->variance_s2) / threads;

@@ -222,14 +222,16 @@ std::vector<BatchJob> ClusterBatches::find_open_jobs(std::int64_t batch) const {
 
 std::size_t ClusterBatches::record(std::int64_t batch, const Provenance& provenance,
                                    const std::vector<BatchRecord>& records) {
-  return core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
+  const auto store = [&](Statements& statements) {
     const BatchDelivery delivery{
         .batch = batch, .provenance = provenance, .now_ms = now_unix_ms(), .change = ++core_.changes};
     std::size_t stored = 0;
     for (const BatchRecord& each : records) stored += record_result(statements, delivery, each) ? 1 : 0;
     core_.check_quota(*statements.use(kUsedBytesQuery).operator->());
     return stored;
-  });
+  };
+  return core_.refusal.watch(
+      [&] { return core_.writer.write_often(Durability::kSurvivesPowerLoss, store); });
 }
 
 void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint32_t>& running,

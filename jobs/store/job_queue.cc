@@ -99,17 +99,21 @@ std::optional<ClaimedJob> JobQueue::claim(const ExecutorFilter& filter, const On
 
 bool JobQueue::record(const ClaimedJob& job, const RunRecord& record) {
   const Outcome outcome(record);  // outside of the lock: other threads compute in the meantime
-  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    return this->record(statements, job, outcome);
+  return core_.refusal.watch([&] {
+    return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+      return this->record(statements, job, outcome);
+    });
   });
 }
 
 std::optional<ClaimedJob> JobQueue::record_and_claim(const ClaimedJob& job, const RunRecord& record,
                                                      const ExecutorFilter& filter, const OnClaim& on_claim) {
   const Outcome outcome(record);
-  return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    this->record(statements, job, outcome);
-    return claim(statements, filter, on_claim);
+  return core_.refusal.watch([&] {
+    return core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
+      this->record(statements, job, outcome);
+      return claim(statements, filter, on_claim);
+    });
   });
 }
 

@@ -45,6 +45,8 @@ class JobQueue {
   /// @throws QueueFull if more than max_queued jobs would wait
   std::string add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued,
                         const IdempotencyRecord<SweepRow>& idempotency = {});
+  /// Stores nothing, and throws what add_sweep() would. Takes as long.
+  void check_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued);
   std::string add_job(const PlannedJob& job, std::size_t max_queued,
                       const IdempotencyRecord<JobRow>& idempotency = {});
   /// Adds jobs to a sweep and replaces its request. False, and nothing is stored, if the request is not

@@ -56,6 +56,23 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
   });
 }
 
+void JobQueue::check_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued) {
+  struct Undo {};
+  try {
+    core_.writer.write(Durability::kSurvivesProcess, [&](SQLite::Database& database) {
+      const std::int64_t now_ms = now_unix_ms();
+      const std::string id = core_.ids.make(kSweepPrefix, now_ms);
+      JobInserter inserter(database, core_.ids, now_ms, core_.changes);
+      const JobOwner owner{insert_sweep(database, id, plan, request, now_ms), plan.reuse};
+      for (const PlannedJob& job : plan.jobs) inserter.insert(job, owner);
+      check_queue_limit(database, max_queued);
+      core_.check_quota(database);
+      throw Undo{};
+    });
+  } catch (const Undo&) {
+  }
+}
+
 bool JobQueue::describe_sweep(const std::string& id, const SweepDescription& changes) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     SQLite::Statement change(

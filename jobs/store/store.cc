@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/store/store.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include <sqlite3.h>
 
@@ -64,10 +66,23 @@ void Store::release_free_pages() {
 
 void Store::check_room() {
   constexpr std::int64_t kLeast_bytes = 1 << 18;  // one write takes some
-  if (find_bytes_left(core_.file) < kLeast_bytes) throw_disk_full();
+  if (jobs::find_bytes_left(core_.file) < kLeast_bytes) throw_disk_full();
   core_.check_room();
   core_.begin();
   check_disk(core_.file, core_.quota.reserve_bytes);
+  if (const std::string reason = refusal(); !reason.empty()) throw StoreLimitReached(reason);
+}
+
+std::int64_t Store::find_bytes_left() {
+  const std::int64_t on_disk =
+      std::max<std::int64_t>(0, jobs::find_bytes_left(core_.file) - core_.quota.reserve_bytes);
+  if (core_.quota.most_bytes <= 0) return on_disk;
+  const std::int64_t used = core_.readers.read([](const SQLite::Database& database) {
+    SQLite::Statement query(database, kUsedBytesQuery);
+    query.executeStep();
+    return query.getColumn(0).getInt64();
+  });
+  return std::clamp<std::int64_t>(core_.quota.most_bytes - used, 0, on_disk);
 }
 
 Writer StoreCore::open(const std::filesystem::path& path, StoreLock& lock) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -36,9 +37,14 @@ class Store {
   /// not been released is used again.
   void release_free_pages();
 
-  /// Checks that the disk is not full. A store on a full disk is opened for reading, cancelling and deleting,
-  /// and can be added to as soon as there is room. @throws StorageError, full
+  /// Checks that the disk is not full, and that results are stored. A store on a full disk is opened for
+  /// reading, cancelling and deleting, and can be added to as soon as there is room.
+  /// @throws StorageError, full
   void check_room();
+  /// Why results are not stored, as long as none is; empty: they are.
+  [[nodiscard]] std::string refusal() const { return core_.refusal.reason(); }
+  /// Bytes that may still be added, by the limits and by what the disk has left.
+  [[nodiscard]] std::int64_t find_bytes_left();
   /// In memory: the disk was full, and no room was held for opening the store.
   [[nodiscard]] LogIndex log_index() const { return core_.writer.log_index(); }
 

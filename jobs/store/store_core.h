@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <mutex>
+#include <string>
 #include <utility>
 
+#include "jobs/base/errors.h"
 #include "jobs/base/ids.h"
 #include "jobs/store/active_sweeps.h"
 #include "jobs/store/check_quota.h"
@@ -15,6 +18,37 @@
 #include "jobs/store/sweep_order.h"
 
 namespace jobs {
+
+/// Why the store has no room for results, while the last one that came was refused.
+class ResultRefusal {
+ public:
+  /// Calls store(), and remembers whether there was room. @throws whatever store() does
+  template <typename Store>
+  auto watch(Store&& store) {
+    try {
+      auto stored = store();
+      set("");
+      return stored;
+    } catch (const StorageError& error) {
+      if (error.full) set(error.what());
+      throw;
+    }
+  }
+  /// Empty: there was room for the last one.
+  [[nodiscard]] std::string reason() const {
+    const std::lock_guard lock(mutex_);
+    return reason_;
+  }
+
+ private:
+  void set(const std::string& reason) {
+    const std::lock_guard lock(mutex_);
+    reason_ = reason;
+  }
+
+  mutable std::mutex mutex_;
+  std::string reason_;
+};
 
 /// Parts that the interfaces of a store share.
 struct StoreCore {
@@ -64,6 +98,7 @@ struct StoreCore {
   ReaderPool readers;
   IdMaker ids;
   ActiveSweepCache active;
+  ResultRefusal refusal;
   // The rest is guarded by the writer's lock.
   /// Number of the claim that last served a sweep; see kSingleJobs
   std::map<std::int64_t, std::uint64_t> served;

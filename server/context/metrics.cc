@@ -92,11 +92,11 @@ class Metrics::Impl {
   void set_executor(const nlohmann::json& executor) {
     const auto name = executor.at("name").get<std::string>();
     slots_.Add({{"executor", name}}).Set(executor.at("slots").get<double>());
+    problems_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("problems").size()));
     if (executor.at("tasks").is_null()) return;
     for (const char* const state : {"pending", "running"})
       tasks_.Add({{"executor", name}, {"state", state}}).Set(executor.at("tasks").at(state).get<double>());
     nodes_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("nodes").size()));
-    problems_.Add({{"executor", name}}).Set(static_cast<double>(executor.at("problems").size()));
   }
 
   prometheus::Family<prometheus::Gauge>& add_gauges(const char* name, const char* help) {

@@ -85,6 +85,10 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
       store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued);
   EXPECT_THROW((void)store.queue.add_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued),
                jobs::StoreLimitReached);
+  EXPECT_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued),
+               jobs::StoreLimitReached);
+  EXPECT_NO_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
+  EXPECT_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, 1), jobs::QueueFull);
   EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1u);
   // The result of a job, too; it can be read and cancelled, and deleting makes room.
   const jobs::ClaimedJob job = store.queue.claim().value();
@@ -92,9 +96,13 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   record.end = RunRecord::End::kFailed;
   record.error_reason = "internal";
   record.error_detail = std::string(kLimit, 'x');
+  EXPECT_NO_THROW(store.check_room());
   EXPECT_THROW((void)store.queue.record(job, record), jobs::StoreLimitReached);
   EXPECT_EQ(store.reader.find_job(job.id).value().state, "running");
+  EXPECT_THROW(store.check_room(), jobs::StoreLimitReached) << "no room for the result that came last";
   EXPECT_EQ(store.queue.cancel_sweep(kept).outcome, jobs::CancelOutcome::kDone);
+  EXPECT_FALSE(store.queue.record(job, record)) << "nobody wants it any more";
+  EXPECT_NO_THROW(store.check_room());
   EXPECT_EQ(store.queue.delete_sweep(kept), jobs::DeleteOutcome::kDone);
   EXPECT_NO_THROW(
       (void)store.queue.add_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
