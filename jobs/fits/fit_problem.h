@@ -42,6 +42,7 @@ struct FitRun {
 struct FitSignal {
   std::size_t run = 0;  ///< index in FitProblem::runs
   std::string channel;
+  std::size_t first_sample = 0;  ///< of the measured run, of those that follow
   MeasuredSignal measured;  ///< all samples within the job, with the windows
   MeasuredSignal compared;  ///< the fitted samples, thinned
   SensorModel sensor;       ///< without what the fit finds

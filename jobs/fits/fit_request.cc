@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -342,10 +344,26 @@ class FitParser : private FittedMeasurementsParser {
                               .job_parameters = completed_[index],
                               .delays = delay_limits()};
     FitSignal signal = make_fit_signal(source);
+    check_is_fitted_once(source, signal);
     is_right(one.pointer + "/channels" + pointer_token(signal.channel), describe_scale_fault(signal));
     signal.run = index;
     signal.cycle_s = cycle_of(index, signal);
     made_.signals.push_back(std::move(signal));
+  }
+
+  /// Samples that two entries fit would count twice, and make intervals too narrow.
+  void check_is_fitted_once(const SignalSource& source, const FitSignal& signal) {
+    const std::vector<double>& times = source.measurement.measurement.runs[source.run].time_s;
+    auto& fitted = fitted_[{source.measurement.id, source.run, signal.channel}];
+    fitted.resize(times.size());
+    for (const std::size_t k : select_samples(signal.measured, Samples::kFitted)) {
+      const std::size_t sample = signal.first_sample + k;
+      if (fitted[sample])
+        return fault(source.measurement.pointer,
+                     "fits run " + std::to_string(source.run) + " of " + source.measurement.id + " at " +
+                         number_text(times[sample]) + " s, as another entry does");
+      fitted[sample] = true;
+    }
   }
 
   [[nodiscard]] double cycle_of(std::size_t run, const FitSignal& signal) const {
@@ -364,12 +382,25 @@ class FitParser : private FittedMeasurementsParser {
     for (const FitSignal& signal : made_.signals)
       samples += select_samples(signal.measured, Samples::kFitted).size();
     if (samples <= made_.parameters.size())
-      return fault("/measurements",
-                   "have " + std::to_string(samples) +
-                       " samples to be fitted between 0 s and the end of the jobs; more than " +
-                       std::to_string(made_.parameters.size()) + " are needed");
+      return fault("/measurements", "have " + std::to_string(samples) +
+                                        " samples to be fitted; more than " +
+                                        std::to_string(made_.parameters.size()) + " are needed" +
+                                        describe_fitted_samples());
     made_.thinning = (samples + most_samples_ - 1) / most_samples_;
     thin_signals();
+  }
+
+  /// Which samples are fitted, as the rest of a sentence.
+  [[nodiscard]] std::string describe_fitted_samples() const {
+    const auto time = [&](const char* key) {
+      return number_text(completed_.front().at(key).get<double>()) + " s";
+    };
+    const bool by_default =
+        std::ranges::any_of(measurements_, [](const FittedMeasurement& one) { return one.fitted.empty(); });
+    const std::string rest = " that are not held back and come before the jobs' end, " + time("duration_s");
+    if (!by_default) return ": fitted are those in the windows of \"fitted\"" + rest;
+    return ": fitted are those from run_up_s, " + time("run_up_s") + ", on" + rest +
+           "; give another run_up_s, or windows in \"fitted\"";
   }
 
   /// Chooses the samples that are compared.
@@ -412,6 +443,8 @@ class FitParser : private FittedMeasurementsParser {
   FitProblem made_;
   SweepRequest common_;
   std::vector<json> completed_;  ///< parameters of each run
+  /// Whether a sample is fitted, by measurement, run and channel.
+  std::map<std::tuple<std::string, std::size_t, std::string>, std::vector<bool>> fitted_;
   std::size_t most_samples_ = 0;
   std::size_t next_run_ = 0;
 };

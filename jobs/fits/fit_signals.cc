@@ -29,19 +29,19 @@ std::vector<TimeWindow> shift_windows(std::vector<TimeWindow> windows, double by
   return windows;
 }
 
-/// Samples within the job, with any delay that the fit may find.
-MeasuredSignal take_samples(const SignalSource& source, double shift_s) {
+/// Takes the samples within the job, with any delay that the fit may find.
+void take_samples(const SignalSource& source, double shift_s, FitSignal& signal) {
   const MeasuredChannel& channel = source.measurement.measurement.channels[source.column];
   const MeasuredRun& run = source.measurement.measurement.runs[source.run];
   const double job_end = source.job_parameters.at("duration_s").get<double>();
-  MeasuredSignal taken;
+  MeasuredSignal& taken = signal.measured;
   for (std::size_t k = 0; k < run.time_s.size(); ++k) {
     const double t = run.time_s[k] + shift_s;
     if (t - source.delays.to < 0.0 || t - source.delays.from > job_end) continue;
+    if (taken.t.empty()) signal.first_sample = k;
     taken.t.push_back(t);
     taken.y.push_back(channel.sign * channel.gain * run.columns[source.column][k] + channel.offset);
   }
-  return taken;
 }
 
 void set_windows(MeasuredSignal& signal, const SignalSource& source, double shift_s) {
@@ -80,7 +80,7 @@ FitSignal make_fit_signal(const SignalSource& source) {
   const double shift_s = of.time_shift_s - channel.delay_s;
   FitSignal signal;
   signal.channel = channel.name;
-  signal.measured = take_samples(source, shift_s);
+  take_samples(source, shift_s, signal);
   set_windows(signal.measured, source, shift_s);
   if (channel.low_pass_hz) {
     signal.sensor.order = LowPassOrder::kSecond;

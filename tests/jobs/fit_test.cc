@@ -403,6 +403,44 @@ TEST(Fit, KeepsAMeasurementThatItNeeds) {
   EXPECT_TRUE(service.delete_measurement(measurement));
 }
 
+TEST(Fit, FitsNoSampleTwice) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4, 6})));
+  const ordered_json once = request["measurements"][0];
+  const auto places_with = [&](const char* first, const char* second) {
+    request["measurements"] = {once, once};
+    request["measurements"][0].merge_patch(ordered_json::parse(first));
+    request["measurements"][1].merge_patch(ordered_json::parse(second));
+    return fit_faults_of(service, request);
+  };
+  using Places = std::set<std::string>;
+  EXPECT_EQ(places_with("{}", "{}"), Places{"/measurements/1"});
+  EXPECT_EQ(places_with(R"({"runs": [0]})", R"({"runs": [1, 0]})"), Places{"/measurements/1"});
+  EXPECT_EQ(places_with(R"({"runs": [0]})", R"({"runs": [1]})"), Places{});
+  EXPECT_EQ(places_with(R"({"fitted": [[0.1, 0.2]]})", R"({"fitted": [[0.3, 0.4]]})"), Places{});
+  EXPECT_EQ(places_with(R"({"fitted": [[0.1, 0.3]]})", R"({"fitted": [[0.2, 0.4]]})"), Places{"/measurements/1"});
+  EXPECT_EQ(places_with(R"({"time_shift_s": 0.001})", "{}"), Places{"/measurements/1"});
+  EXPECT_EQ(places_with(R"({"held_back_runs": [0, 1]})", "{}"), Places{});
+}
+
+TEST(Fit, SaysWhichSamplesItFits) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4, 6})));
+  request["parameters"]["run_up_s"] = 40.0;
+  try {
+    static_cast<void>(service.submit_study(kFit, request));
+    ADD_FAILURE();
+  } catch (const jobs::InvalidRequest& invalid) {
+    EXPECT_THAT(invalid.faults().front().detail, testing::AllOf(testing::HasSubstr("0 samples to be fitted"),
+                                               testing::HasSubstr("from run_up_s, 40 s, on"),
+                                               testing::HasSubstr("another run_up_s, or windows in")));
+  }
+}
+
 TEST(Fit, RefusesEachFaultWithItsPlace) {
   const TemporaryStore store;
   ClosedForm form;
