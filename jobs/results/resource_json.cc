@@ -120,8 +120,7 @@ void add_metric_keys(const json& parameters, std::vector<std::string>& keys) {
 }
 
 /// The metrics of a sweep: those of all the linkages that its cases have, each key once.
-std::vector<std::string> metric_keys_of(const SweepRow& sweep) {
-  const json request = stored_json(sweep.request);
+std::vector<std::string> metric_keys_of(const json& request) {
   const json common = request.value("parameters", json::object());
   std::vector<std::string> keys;
   bool every_case = true;
@@ -180,11 +179,28 @@ void append_others(const ResultRow& row, const std::vector<std::string>& others,
   }
 }
 
-/// Value of a row in its set. Only jobs that succeeded have metrics, and a peak may be null: the run ended
-/// before its window.
-ReplicateValue replicate_value(const ResultRow& row, const json& peak) {
-  return {.replicate = static_cast<std::size_t>(row.replicate.value_or(0)),
-          .value = peak.is_number() ? std::optional(peak.get<double>()) : std::nullopt};
+/// Cells of a row up to its metrics, which are left empty. @param count  with the metrics
+std::vector<json> make_own_cells(const ResultRow& row, bool replicated, std::size_t count) {
+  std::vector<json> cells;
+  cells.reserve(count);
+  cells.emplace_back(row.job_id);
+  cells.emplace_back(row.state);
+  if (replicated) cells.push_back(value_or_null(row.replicate));
+  append_swept(row.swept, cells);
+  cells.resize(count);
+  return cells;
+}
+
+/// Statistics of the replicates by their values in a column. Only jobs that succeeded have metrics, and a
+/// peak may be null: the run ended before its window.
+std::vector<ReplicateStatistics> compare_replicates(const std::vector<ResultRow>& rows,
+                                                    const ResultTable& table, std::size_t column) {
+  std::vector<ReplicateValue> values;
+  values.reserve(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    values.push_back({.replicate = static_cast<std::size_t>(rows[r].replicate.value_or(0)),
+                      .value = number_in(table.rows[r][column])});
+  return calc_statistics_by_row(values);
 }
 
 }  // namespace
@@ -301,35 +317,29 @@ const std::vector<std::string>& job_listing_keys() {
 ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others,
                          const std::string& replicate_metric) {
   const SweepRow& sweep = results.sweep;
+  const json request = stored_json(sweep.request);
   const auto swept = swept_of(sweep);
   ResultTable table{.columns = {"job_id", "state"}, .rows = {}, .ended = has_ended(sweep.counts)};
   if (sweep.replicated) table.columns.emplace_back("replicate");
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
-  const std::vector<std::string> keys = metric_keys_of(sweep);
+  const std::vector<std::string> keys = metric_keys_of(request);
   const MetricColumns metrics = metric_columns(keys, table.columns.size());
   table.columns.insert(table.columns.end(), keys.begin(), keys.end());
-  const std::size_t compared = find_metric(table, replicate_metric);
+  static_cast<void>(choose_metric(table, replicate_metric));
   const std::size_t own = table.columns.size();
   table.columns.insert(table.columns.end(), others.begin(), others.end());
   table.rows.reserve(results.rows.size());
-  std::vector<ReplicateValue> values;
-  values.reserve(results.rows.size());
   for (const ResultRow& row : results.rows) {
-    std::vector<json> cells;
-    cells.reserve(table.columns.size());
-    cells.emplace_back(row.job_id);
-    cells.emplace_back(row.state);
-    if (sweep.replicated) cells.push_back(value_or_null(row.replicate));
-    append_swept(row.swept, cells);
-    cells.resize(own);
+    std::vector<json> cells = make_own_cells(row, sweep.replicated, own);
     append_others(row, others, cells);
     if (row.metrics) put_metrics(*row.metrics, metrics, cells);
-    values.push_back(replicate_value(row, cells[compared]));
     table.rows.push_back(std::move(cells));
   }
   const bool repeated =
-      std::ranges::any_of(values, [](const ReplicateValue& value) { return value.replicate > 0; });
-  if (repeated) table.replicates = calc_statistics_by_row(values);
+      std::ranges::any_of(results.rows, [](const ResultRow& row) { return row.replicate.value_or(0) > 0; });
+  if (!repeated) return table;
+  const std::string compared = choose_free_metric({{"request", request}}, table, replicate_metric);
+  table.replicates = compare_replicates(results.rows, table, metrics.at(compared));
   return table;
 }
 

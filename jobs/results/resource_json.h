@@ -55,7 +55,7 @@ enum class Detail { kFull, kListing };
 
 /// @param others  columns at the end: parameters that the sweep does not vary, and kErrorColumns; rows carry
 ///     their parameters if needed_parameters(others)
-/// @param replicate_metric  that replicates are compared by; empty: see choose_metric()
+/// @param replicate_metric  that replicates are compared by; empty: see choose_free_metric()
 /// @throws InvalidRequest as choose_metric() does
 [[nodiscard]] ResultTable result_table(const SweepResults& results, const std::vector<std::string>& others,
                                        const std::string& replicate_metric = {});
