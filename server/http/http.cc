@@ -243,8 +243,8 @@ class HttpServer::Impl {
     response.status = 204;
     response.set_header("Access-Control-Allow-Methods", "GET, HEAD, POST, PATCH, DELETE");
     response.set_header("Access-Control-Allow-Headers",
-                        "Authorization, Content-Type, Idempotency-Key, If-None-Match, If-Range, "
-                        "Last-Event-ID, Prefer, Range");
+                        "Authorization, Content-Type, Idempotency-Key, If-Match, If-None-Match, "
+                        "If-Range, Last-Event-ID, Prefer, Range");
     response.set_header("Access-Control-Max-Age", "600");
     // Chrome asks this where a page from elsewhere speaks to this machine.
     if (request.has_header("Access-Control-Request-Private-Network"))
@@ -324,6 +324,7 @@ class HttpServer::Impl {
     to.accept = from.get_header_value("Accept");
     to.content_type = from.get_header_value("Content-Type");
     to.accept_encoding = from.get_header_value(kAcceptEncoding);
+    to.if_match = from.get_header_value("If-Match");
     to.if_none_match = from.get_header_value("If-None-Match");
     to.prefer = from.get_header_value("Prefer");
     to.last_event_id = from.get_header_value("Last-Event-ID");

@@ -15,6 +15,11 @@ namespace server {
 /// The same with a tag that is known already, in its quotes. Cache-Control is the caller's.
 [[nodiscard]] Response with_etag(const Request& request, Response response, std::string_view etag);
 
+/// Checks that what a request changes is what its client has seen: the answer to GET has a tag of If-Match.
+/// @param current  answer to GET now
+/// @throws HttpError 412
+void check_if_match(const Request& request, const Response& current);
+
 /// Marks an answer about something that still changes.
 [[nodiscard]] Response without_etag(Response response);
 

@@ -20,7 +20,7 @@ struct Request {
   std::string id;                                           ///< names this request in answers and in the log
   // Of the headers of these names; empty if they are missing.
   std::string accept_encoding{};
-  std::string if_none_match{};
+  std::string if_match{}, if_none_match{};
   std::string prefer{};
   std::string last_event_id{};
   std::optional<std::string> idempotency_key{};

@@ -26,6 +26,7 @@ std::set<int> problems_of(const Route& route) {
   problems.insert(route.problems.begin(), route.problems.end());
   if (!route.body.empty() || route.method == "POST") problems.insert(415);
   if (route.method != "GET") problems.insert(507);
+  if (changes_existing(route)) problems.insert(412);
   return problems;
 }
 
@@ -44,7 +45,7 @@ Json make_headers() {
        {{"description", "Path of what was made; behind a proxy that of the proxy stands before it"},
         {"required", true},
         {"schema", {{"type", "string"}, {"pattern", "^(/[^?#]*)?/v1/"}}}}},
-      {"ETag", {{"description", "For If-None-Match; only on what has ended"}, {"schema", text}}},
+      {"ETag", {{"description", "For If-None-Match and If-Match; only on what has ended"}, {"schema", text}}},
       {"Preference-Applied",
        {{"description", "The wait that was done; without it there was none"},
         {"schema", {{"type", "string"}, {"pattern", "^wait=[0-9]+$"}}}}},
@@ -107,6 +108,8 @@ void add_parameters_to(Json& operation, const Route& route) {
     for (const std::string_view id : *ids)
       operation["parameters"].push_back({{"$ref", "#/components/parameters/" + std::string(id)}});
   }
+  if (changes_existing(route))
+    operation["parameters"].push_back({{"$ref", "#/components/parameters/if_match"}});
 }
 
 Json make_request_body(const Route& route) {

@@ -70,7 +70,8 @@ std::vector<RequestParameter> make_query_parameters() {
        {{"type", "string"}, {"enum", {"false", "true"}}, {"default", "false"}}},
       {"metric", "query", "metric",
        "The metric; if left out the peak of the slider's acceleration, or the first acceleration of a "
-       "described linkage that varies and that no drive prescribes",
+       "described linkage that varies and that no drive prescribes, or else the first other metric that "
+       "varies",
        make_metric()},
       {"report_x", "query", "x",
        "The number along the charts; the first that the sweep varies if left out", kText},
@@ -166,6 +167,8 @@ std::vector<RequestParameter> make_header_parameters() {
        "Idempotency-Key",
        "The same key with the same request is answered as before; nothing is made twice",
        {{"type", "string"}, {"minLength", 1}, {"maxLength", 255}, {"pattern", "^[!-~]+$"}}},
+      {"if_match", "header", "If-Match",
+       "An ETag: 412, and nothing done, if anything has changed since", kText},
       {"if_none_match", "header", "If-None-Match", "An ETag: 304 if nothing has changed", kText},
       {"range", "header", "Range",
        "bytes=N-: the rest of the file, to go on with a download; several ranges get all of it", kText},

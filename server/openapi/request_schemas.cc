@@ -129,8 +129,15 @@ Json make_replicates() {
   return replicates;
 }
 
+Json make_case() {
+  Json properties = Json::object();
+  for (const auto& [key, schema] : jobs::parameter_schema().at("properties").items())
+    properties[key] = openapi::ref("Parameters/properties/" + key);  // not std::ref
+  return by_paths(std::move(properties), {{"type", "number"}});
+}
+
 Json make_cases() {
-  Json cases = list_of(ref("Parameters"));
+  Json cases = list_of(ref("Case"));
   cases["minItems"] = 1;
   cases["description"] = "sets listed one by one";
   return cases;
@@ -268,6 +275,7 @@ Json make_request_schemas() {
   Json parameters = jobs::parameter_schema();
   parameters.erase("$schema");
   return {{"Parameters", std::move(parameters)},
+          {"Case", make_case()},
           {"SweepRequest", make_sweep_request()},
           {"Extension", make_extension()},
           {"Move", make_move()},

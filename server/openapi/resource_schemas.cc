@@ -174,9 +174,8 @@ Json make_page_schema(std::string_view item) {
 
 /// Statistics of the row's set of equal parameters.
 void add_replicate_statistics(Json& properties) {
-  properties["replicates_count"] =
-      described(kCount, "of the row's set, those that have succeeded; the statistics are of their " +
-                            std::string(jobs::kReplicateMetric) + ", or of the metric of the query");
+  properties["replicates_count"] = described(
+      kCount, "of the row's set, those that have succeeded; the statistics are of the query's metric");
   for (const char* const key : {"replicates_mean", "replicates_spread", "replicates_min", "replicates_max"})
     properties[key] = or_null(kNumber);
 }

@@ -16,6 +16,7 @@
 #include "jobs/motion/poincare.h"
 #include "jobs/motion/spectrum.h"
 #include "jobs/paper/paper_statements.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/requests/parameters.h"
 #include "jobs/results/csv.h"
 #include "jobs/results/table_groups.h"
@@ -30,6 +31,7 @@
 #include "server/messages/query.h"
 #include "server/report/html.h"
 #include "server/report/report.h"
+#include "server/routes/job_routes.h"
 #include "server/routes/tables.h"
 
 namespace server {
@@ -49,9 +51,20 @@ std::optional<SweepAndResults> find_sweep_and_results(const RequestContext& cont
   return results ? std::optional(SweepAndResults{std::move(*sweep), std::move(*results)}) : std::nullopt;
 }
 
-/// The sweep with job_id, replicate if it has any, the values of its axes, and run_up_s.
+/// @throws WrongState if the jobs of a sweep have no trajectories
+void check_keeps_trajectories(const nlohmann::json& sweep) {
+  const nlohmann::json& request = sweep.at("request");
+  if (jobs::keeps_metrics_alone(request) ||
+      jobs::keeps_metrics_alone(request.value("parameters", nlohmann::json::object())))
+    throw jobs::WrongState(
+        "the sweep's jobs have no trajectories: it was submitted with \"keep\": \"metrics\"");
+}
+
+/// The sweep with job_id, replicate if it has any, the values of its axes, and run_up_s. Its jobs have
+/// trajectories.
 std::optional<SweepAndResults> find_with_run_up(const RequestContext& context) {
   const auto sweep = context.service.find_sweep(context.id);
+  if (sweep) check_keeps_trajectories(*sweep);
   const auto all = sweep ? context.service.find_results(context.id, {.limit = 1}) : std::nullopt;
   if (!all) return std::nullopt;
   jobs::ResultQuery query;
@@ -103,12 +116,6 @@ jobs::RunReader make_run_reader(const RequestContext& context) {
   return {.find = [&context](const std::string& id, const jobs::TrajectoryQuery& query)
               { return context.service.find_trajectory(id, query); },
           .list_channels = [&context](const std::string& id) { return list_channels(context, id); }};
-}
-
-/// The error for a job without a trajectory, or for no job.
-HttpError no_trajectory(const RequestContext& context) {
-  return {404, context.service.find_job(context.id) ? "job " + context.id + " has no trajectory"
-                                                    : "there is no job " + context.id};
 }
 
 /// Runs a query of a single channel. A fault of /channels/0 becomes one of /channel, the key of the query.

@@ -8,6 +8,7 @@
 
 #include "jobs/assembly.h"
 #include "jobs/base/errors.h"
+#include "jobs/parameters/kept_results.h"
 #include "jobs/requests/parameter_schema.h"
 #include "server/messages/identifiers.h"
 #include "server/messages/json_text.h"
@@ -86,10 +87,15 @@ Response get_trajectory(const RequestContext& context) {
         return context.service.find_trajectory_view(context.id, asked, is_wanted);
       });
   if (response) return std::move(*response);
+  throw no_trajectory(context);
+}
+
+HttpError no_trajectory(const RequestContext& context) {
   const auto job = context.service.find_job(context.id);
-  if (!job) throw no_such_job(context.id);
-  throw HttpError(404, "job " + context.id + " is " + job->at("state").get<std::string>() +
-                           " and has no trajectory");
+  if (!job) return no_such_job(context.id);
+  const bool kept = !jobs::keeps_metrics_alone(job->at("parameters"));
+  return {404, "job " + context.id + " is " + job->at("state").get<std::string>() + " and has no trajectory" +
+                   (kept ? "" : ": it was submitted with \"keep\": \"metrics\"")};
 }
 
 Response get_parameters(const RequestContext& context) {

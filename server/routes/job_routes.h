@@ -3,6 +3,7 @@
 
 #include "server/context/request_context.h"
 #include "server/messages/message.h"
+#include "server/messages/problem.h"
 
 namespace server {
 
@@ -14,5 +15,8 @@ Response cancel_job(const RequestContext& context);
 Response delete_job(const RequestContext& context);
 Response get_trajectory(const RequestContext& context);
 Response get_parameters(const RequestContext& context);
+
+/// Error for the job of the path, which is not there or has no trajectory.
+[[nodiscard]] HttpError no_trajectory(const RequestContext& context);
 
 }  // namespace server

@@ -7,12 +7,14 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "server/messages/conditional.h"
 #include "server/messages/error_answer.h"
 #include "server/messages/identifiers.h"
 #include "server/messages/problem.h"
@@ -73,6 +75,24 @@ bool is_heavy(const Route& route, const Request& request) {
 std::shared_ptr<const void> idle_permit() {
   static constexpr char kNone = 0;
   return {std::shared_ptr<const void>(), &kNone};
+}
+
+/// The route that answers GET with what a route changes: at the same path, or without the action at its end.
+const Route* find_changed(const Route& route) {
+  const auto is_read_at = [](std::string_view pattern) {
+    return [=](const Route& other) { return other.method == "GET" && other.pattern == pattern; };
+  };
+  const auto table = route_table();
+  auto found = std::ranges::find_if(table, is_read_at(route.pattern));
+  if (found == table.end())
+    found = std::ranges::find_if(table, is_read_at(route.pattern.substr(0, route.pattern.rfind('/'))));
+  return found == table.end() ? nullptr : &*found;
+}
+
+/// GET of what a request changes.
+Request make_get_of(const Request& request) {
+  return {.method = "GET", .path = request.path, .query = {}, .accept = {}, .body = {}, .id = request.id,
+          .base_path = request.base_path};
 }
 
 Response make_wrong_method(const std::string& allowed) {
@@ -152,8 +172,15 @@ Response Routes::run_route(const Route& route, const Request& request, std::stri
     return make_retry_later(503, "the service is shutting down");
   const auto permit = is_heavy(route, request) ? heavy_limit_.acquire() : idle_permit();
   if (!permit) return make_retry_later(503, "as many large requests wait as may; try again");
-  return route.handler({service_, request, std::move(id), draining_, *metrics_, long_poll_limit_,
-                        store_copy_limit_, stream_limit_, export_limit_});
+  const auto answer_by = [&](const Route& one, const Request& asked) {
+    return one.handler({service_, asked, id, draining_, *metrics_, long_poll_limit_, store_copy_limit_,
+                        stream_limit_, export_limit_});
+  };
+  if (!changes_existing(route) || request.if_match.empty()) return answer_by(route, request);
+  const std::lock_guard one_at_a_time(if_match_mutex_);  // two with the same tag: one has seen the other
+  if (const Route* changed = find_changed(route))
+    check_if_match(request, answer_by(*changed, make_get_of(request)));
+  return answer_by(route, request);
 }
 
 }  // namespace server

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,7 @@ class Routes {
   jobs::Service& service_;
   std::shared_ptr<Metrics> metrics_;
   std::atomic<bool> draining_ = false;
+  mutable std::mutex if_match_mutex_;  ///< held from the look at what is there to the end of its change
   mutable LongPollLimit long_poll_limit_;
   mutable StoreCopyLimit store_copy_limit_;
   // Each of these may take some 40 MB.

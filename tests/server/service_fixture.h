@@ -70,7 +70,8 @@ inline engine::RunResult endless_run(const jobs::JobSpec&, const engine::StopQue
 /// A service on a store of its own, and routes to it that are called without a socket.
 class Bench {
  public:
-  explicit Bench(jobs::Runner runner = known_run) : service_(options(std::move(runner))), routes_(service_) {}
+  explicit Bench(jobs::Runner runner = known_run, const jobs::StoreQuota& quota = {})
+      : service_(options(std::move(runner), quota)), routes_(service_) {}
 
   server::Response call(const std::string& method, const std::string& path, const std::string& body = "",
                         std::vector<std::pair<std::string, std::string>> query = {},
@@ -103,8 +104,9 @@ class Bench {
   server::Routes& routes() { return routes_; }
 
  private:
-  jobs::ServiceOptions options(jobs::Runner runner) {
+  jobs::ServiceOptions options(jobs::Runner runner, const jobs::StoreQuota& quota) {
     jobs::ServiceOptions result;
+    result.store_quota = quota;
     result.store = folder_ / "store.db";
     result.threads = 1;
     result.runner = std::move(runner);

@@ -332,6 +332,23 @@ TEST(Analyses, SayWhichOnlyRpsupHas) {
             "/channel");
 }
 
+TEST(Analyses, RefuseMotionsThatWereNotKept) {
+  Bench bench;
+  const std::string id = bench.run(
+      R"({"sweep": {"clearance_mm": [0.1]}, "replicates": {"count": 2}, "keep": "metrics"})");
+  for (const char* const analysis : {"/lyapunov", "/bifurcation"}) {
+    const auto refused = bench.call("GET", "/v1/sweeps/" + id + analysis);
+    EXPECT_EQ(refused.status, 409) << analysis;
+    EXPECT_NE(refused.body.find("keep"), std::string::npos) << refused.body;
+  }
+  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body).at(0).at("job_id");
+  for (const char* const of_job : {"/trajectory", "/spectrum", "/poincare"}) {
+    const auto missing = bench.call("GET", "/v1/jobs/" + job + of_job);
+    EXPECT_EQ(missing.status, 404) << of_job;
+    EXPECT_NE(missing.body.find("keep"), std::string::npos) << missing.body;
+  }
+}
+
 // A crank that turns every 0.05 s, less half a run-up of 0.02 s, with a pendulum on a pin with play.
 TEST(Analyses, TakeSectionsAndExponentsOfDescribedLinkages) {
   Bench bench(jobs::engine_runner());
@@ -350,6 +367,12 @@ TEST(Analyses, TakeSectionsAndExponentsOfDescribedLinkages) {
   const json exponents = rows_of(bench, sweep + "/lyapunov");
   ASSERT_EQ(exponents.size(), 2U);
   EXPECT_EQ(exponents.at(0).at("pairs"), 1);
+  // All that have a metric by default have the same one, which no drive prescribes.
+  const std::string metric = json::parse(bench.call("GET", sweep + "/surrogate").body).at("metric");
+  EXPECT_EQ(metric.find("wheel"), std::string::npos) << metric;
+  const json results = json::parse(bench.call("GET", sweep + "/results").body);
+  EXPECT_DOUBLE_EQ(results.at(0).at("replicates_mean").get<double>(),
+                   0.5 * (results.at(0).at(metric).get<double>() + results.at(1).at(metric).get<double>()));
   const std::string job =
       "/v1/jobs/" +
       json::parse(bench.call("GET", sweep + "/results").body).at(0).at("job_id").get<std::string>();

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@ using nlohmann::json;
 using server_tests::Bench;
 using server_tests::endless_run;
 using server_tests::header;
+using server_tests::known_run;
 
 const char* const kContractSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
 
@@ -80,6 +82,69 @@ TEST(ETag, SparesWhatTheClientHas) {
   const std::string results = "/v1/sweeps/" + id + "/results";
   EXPECT_NE(header(bench.call("GET", results), "ETag"),
             header(bench.call("GET", results, "", {{"format", "csv"}}), "ETag"));
+}
+
+TEST(ETag, GuardsWhatHasChangedSince) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kContractSweep);
+  const auto change = [&](const std::string& method, const std::string& at, const std::string& body, const std::string& tags) {
+    server::Request request{.method = method, .path = at, .query = {}, .accept = {}, .body = body, .id = "test-1"};
+    request.if_match = tags;
+    return bench.call(request);
+  };
+  const std::string seen = header(bench.call("GET", path), "ETag");
+  EXPECT_EQ(change("PATCH", path, R"({"notes": "a colleague's"})", "\"other\", " + seen).status, 200);
+  const auto late = change("PATCH", path, R"({"notes": "mine"})", seen);
+  EXPECT_EQ(late.status, 412);
+  EXPECT_EQ(json::parse(bench.call("GET", path).body).at("notes"), "a colleague's");
+  const std::string now = header(bench.call("GET", path), "ETag");
+  EXPECT_NE(late.body.find(json(now).dump().substr(1, 10)), std::string::npos) << late.body;
+  EXPECT_EQ(change("POST", path + "/retry", "{}", seen).status, 412);
+  EXPECT_EQ(change("DELETE", path, "", "W/" + now).status, 412) << "a weak tag names no state";
+  EXPECT_EQ(change("DELETE", "/v1/sweeps/swp_1", "", "*").status, 404);
+  EXPECT_EQ(change("DELETE", path, "", now).status, 204);
+  Bench other(endless_run);
+  const std::string running = "/v1/sweeps/" + other.submit(kContractSweep);
+  server::Request cancel{.method = "POST", .path = running + "/cancel", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  cancel.if_match = seen;
+  EXPECT_EQ(other.call(cancel).status, 412);
+  cancel.if_match = "*";
+  EXPECT_EQ(other.call(cancel).status, 200);
+}
+
+/// Waits until a service answers that it is full. False after some seconds.
+bool wait_until_full(Bench& bench) {
+  for (int k = 0; k < 200; ++k) {
+    if (json::parse(bench.call("GET", "/readyz").body).at("status") == "full") return true;
+    std::this_thread::sleep_for(50ms);
+  }
+  return false;
+}
+
+TEST(StoreLimit, IsSeenFromOutside) {
+  Bench bench(known_run, {.most_bytes = 450'000});
+  const std::string request = R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 60}}})";
+  const std::string id = bench.submit(request);
+  ASSERT_TRUE(wait_until_full(bench));
+  const json sweep = json::parse(bench.call("GET", "/v1/sweeps/" + id).body);
+  EXPECT_EQ(sweep.at("state"), "running");
+  EXPECT_TRUE(sweep.at("eta_s").is_null());
+  const json executors = json::parse(bench.call("GET", "/v1/executors").body);
+  EXPECT_NE(executors.at("items")[0].at("problems").dump().find("results wait to be stored"), std::string::npos);
+  // A dry run is refused as the submission would be.
+  const std::string large = R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.4, "count": 5000}}})";
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", large).status, 507);
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps", large, {{"dry_run", "true"}}).status, 507);
+  EXPECT_EQ(json::parse(bench.call("GET", "/v1/sweeps").body).at("items").size(), 1U);
+  // Room is used as soon as there is some.
+  EXPECT_EQ(bench.call("POST", "/v1/sweeps/" + id + "/cancel", "{}").status, 200);
+  EXPECT_EQ(bench.call("DELETE", "/v1/sweeps/" + id).status, 204);
+  const std::string small = R"({"sweep": {"crank_velocity_rad_s": [7]}})";
+  const json estimate = json::parse(bench.call("POST", "/v1/sweeps", small, {{"dry_run", "true"}}).body);
+  EXPECT_LT(estimate.at("free_bytes"), 450'000);
+  EXPECT_GT(estimate.at("free_bytes"), 0);
+  bench.run(small);
+  EXPECT_EQ(json::parse(bench.call("GET", "/readyz").body).at("status"), "ready");
 }
 
 TEST(ETag, IsNotOfWhatStillChanges) {
