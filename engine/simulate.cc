@@ -7,6 +7,7 @@
 #include "engine/dynamics/loop_closure.h"
 #include "engine/integrate/integration.h"
 #include "engine/integrate/kinematic_run.h"
+#include "engine/integrate/spherical_charts.h"
 
 namespace engine {
 
@@ -59,6 +60,22 @@ std::optional<RunOutcome> find_start_fault(const Mechanism& mechanism, LoopClosu
   return RunOutcome{.status = RunStatus::kLockUp, .detail = describe_lock(start)};
 }
 
+/// The start with spherical joints in charts far from gimbal lock, which is none of the linkage.
+struct ChartedStart {
+  ChartedStart(const Mechanism& given, const Evaluation& assembled)
+      : at(assembled), mechanism(begin_charts(given, at)), closure(mechanism) {}
+
+  Evaluation at;
+  Mechanism mechanism;
+  LoopClosure closure;
+
+ private:
+  static Mechanism begin_charts(Mechanism mechanism, Evaluation& at) {
+    SphericalCharts(mechanism).update(mechanism, at.q, at.qd);
+    return mechanism;
+  }
+};
+
 RunOutcome integrate(const Mechanism& mechanism, const RunOptions& options, Observer& observer,
                      const Evaluation& assembled, Eigen::Index redundant) {
   if (redundant == 0) return Integration(mechanism, options, observer).run(assembled);
@@ -78,11 +95,13 @@ RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Obser
   const Determinacy determinacy = allows_kinematics(mechanism, options.integrator)
                                       ? closure.find_determinacy(assembled)
                                       : Determinacy::kFree;
-  if (const auto fault = find_start_fault(mechanism, closure, determinacy, assembled)) return *fault;
+  ChartedStart start(mechanism, assembled);
+  if (const auto fault = find_start_fault(mechanism, start.closure, determinacy, start.at)) return *fault;
+  const Eigen::Index redundant = start.closure.count_redundant(start.at);
   RunOutcome outcome = determinacy == Determinacy::kDetermined
                            ? run_kinematics(mechanism, closure, options, observer, assembled)
-                           : integrate(mechanism, options, observer, assembled, closure.redundant());
-  outcome.redundant_constraints = static_cast<int>(closure.redundant());
+                           : integrate(mechanism, options, observer, assembled, redundant);
+  outcome.redundant_constraints = static_cast<int>(redundant);
   return outcome;
 }
 

@@ -226,11 +226,15 @@ bool LoopClosure::close(Evaluation& at, AxisResiduals axes, double tolerance,
   return false;
 }
 
+Eigen::Index LoopClosure::count_independent(const Evaluation& assembled) {
+  Evaluation at = assembled;
+  calc_positions(at);
+  return rank_of(calc_rigid_rows());
+}
+
 bool LoopClosure::assemble_rates(Evaluation& at) {
   calc_rates(at);
   if (constraints_.count() == 0) return true;
-  const auto rigid = static_cast<Eigen::Index>(rigid_rows_.size());
-  redundant_ = rigid - rank_of(calc_rigid_rows());
   // A journal that has clearance may also move in its bearing from the start.
   rates_fit_ = find_rates(all_rows_, at) || find_rates(rigid_rows_, at);
   return rates_fit_;

@@ -61,11 +61,11 @@ class LoopClosure {
   /// Just after assemble(): whether drives that soon move from rest can start. They cannot if they move
   /// against each other, or against a joint.
   [[nodiscard]] bool drives_can_start(const Evaluation& assembled);
-  /// After assemble(): number of redundant constraint rows. Joints with clearance have no rows.
-  [[nodiscard]] Eigen::Index redundant() const { return redundant_; }
-  /// After assemble(): number of independent constraint rows, those of joints with clearance left out.
-  [[nodiscard]] Eigen::Index rank() const {
-    return static_cast<Eigen::Index>(rigid_rows_.size()) - redundant_;
+  /// Number of independent constraint rows in an assembled position. Joints with clearance have no rows.
+  [[nodiscard]] Eigen::Index count_independent(const Evaluation& assembled);
+  /// Number of the others.
+  [[nodiscard]] Eigen::Index count_redundant(const Evaluation& assembled) {
+    return static_cast<Eigen::Index>(rigid_rows_.size()) - count_independent(assembled);
   }
 
   /// Predictor for solve(): extrapolates the unknown coordinates of two instants to time t, by the quintic
@@ -155,7 +155,6 @@ class LoopClosure {
   std::vector<Eigen::Index> position_rows_;  ///< constraint rows that are distances
   double reach_ = 0.0;  ///< largest distance of a loop joint or a centre of mass from its frame's origin, [m]
   double size_ = 0.0;   ///< the same of the last position, from the origin of W
-  Eigen::Index redundant_ = 0;
   bool rates_fit_ = true;
   int turned_over_ = -1;
   // Solver of a determined mechanism:

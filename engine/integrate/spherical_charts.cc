@@ -74,18 +74,31 @@ Eigen::Vector3d calc_bias(const Eigen::Vector3d& q, const Eigen::Vector3d& qd) {
           -qd[1] * qd[2] * c + across_d * c - across * qd[2] * s};
 }
 
+/// Least |cos theta|: nearer to gimbal lock psi and phi have no digits of their own left, nor have the rates.
+constexpr double kLeastCosine = 3e-6;
+
+/// Angles less whole turns, as near to others as may be.
+Eigen::Vector3d unwrap(const Eigen::Vector3d& angles, const Eigen::Vector3d& near) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return angles + kTurn * ((near - angles) / kTurn).array().round().matrix();
+}
+
+/// Angles of a rotation in gimbal lock, where psi may be any: that of `near`. theta stays a little beside it.
+Eigen::Vector3d find_locked_angles(const Eigen::Matrix3d& R, const Eigen::Vector3d& near) {
+  const double sign = R(2, 0) < 0.0 ? 1.0 : -1.0;  // of theta
+  const double phi = sign * near[0] + std::atan2(sign * R(0, 1), sign * R(0, 2));
+  return unwrap({near[0], sign * (0.5 * std::numbers::pi - kLeastCosine), phi}, near);
+}
+
 /// Angles of a rotation, those nearest to others.
 Eigen::Vector3d find_angles(const Eigen::Matrix3d& R, const Eigen::Vector3d& near) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  if (std::hypot(R(2, 1), R(2, 2)) < kLeastCosine) return find_locked_angles(R, near);
   const Eigen::Vector3d first(std::atan2(R(1, 0), R(0, 0)),
                               std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
                               std::atan2(R(2, 1), R(2, 2)));
   const Eigen::Vector3d second(first[0] + std::numbers::pi, std::numbers::pi - first[1],
                                first[2] + std::numbers::pi);
-  const auto unwrap = [&](const Eigen::Vector3d& angles) -> Eigen::Vector3d {
-    return angles + kTurn * ((near - angles) / kTurn).array().round().matrix();
-  };
-  const Eigen::Vector3d a = unwrap(first), b = unwrap(second);
+  const Eigen::Vector3d a = unwrap(first, near), b = unwrap(second, near);
   return (a - near).squaredNorm() <= (b - near).squaredNorm() ? a : b;
 }
 

@@ -39,7 +39,8 @@ class SphericalCharts {
   [[nodiscard]] Angles angles_of(const Eigen::VectorXd& q) const;
 
   /// Gives the evaluation the angles of the given chart. Of the many that are the same rotation, those
-  /// nearest to `near` are taken. In the singular position itself rates are not finite.
+  /// nearest to `near` are taken. In the singular position itself, where rates would not be finite, they are
+  /// those a little beside it.
   void restore_given(const Angles& near, Evaluation& at) const;
 
  private:

@@ -306,6 +306,40 @@ TEST(TumblesThroughGimbalLock, AlsoFromTheSingularAngle) {
   EXPECT_EQ(run(linkage, 0.5).status, RunStatus::kSucceeded);
 }
 
+/// A body held as by a hinge about y: by a joint of three turns, and a revolute or cylindrical one.
+Linkage make_hinge_of_two(JointKind carrier, JointKind closing, double start) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, 0.0, -9.81};
+  linkage.bodies = {make_body("body", 1.0, {0.2, 0.1, 0.05}, {0.01, 0.02, 0.025})};
+  LinkageJoint joint{.name = "carrier", .kind = carrier, .from = kGroundName, .to = "body", .placement = {}};
+  const std::size_t count = freedoms_of(joint).size();
+  for (std::size_t k = 0; k < count; ++k) joint.freedoms.push_back({.name = "q" + std::to_string(k)});
+  joint.freedoms[count - 2].start = start;
+  const Eigen::Matrix3d to_y = Eigen::AngleAxisd(-0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  linkage.joints = {joint, {.name = "closing", .kind = closing, .from = kGroundName, .to = "body", .placement = {.R = to_y}, .cut = true,
+                            .to_placement = {.R = to_y}}};
+  linkage.accelerometers = {{.name = "sensor", .body = "body", .at = {0.1, 0.2, 0.3}, .direction = {1.0, 0.0, 0.0}}};
+  return linkage;
+}
+
+// A right angle is a usual number: the start shows what one beside it does.
+TEST(GimbalLock, AtTheStartIsNoneOfTheLinkage) {
+  for (const double sign : {-1.0, 1.0})
+    for (const JointKind carrier : {JointKind::kSpherical, JointKind::kFree})
+      for (const JointKind closing : {JointKind::kRevolute, JointKind::kCylindrical, JointKind::kUniversal}) {
+        const double right = sign * 0.5 * std::numbers::pi;
+        const LinkageRun beside(make_hinge_of_two(carrier, closing, right - 1e-4), accurate(0.1));
+        for (const double start : {right, right + 1e-9, sign * 1.5708}) {
+          const LinkageRun run(make_hinge_of_two(carrier, closing, start), accurate(0.1));
+          EXPECT_EQ(run.metric("redundant_constraints"), beside.metric("redundant_constraints"));
+          for (const char* const shown : {"sensor_accelerometer_m_s2", "carrier_reaction_n", "kinetic_energy_j"}) {
+            EXPECT_NEAR(run.column(shown)[0], beside.column(shown)[0], 2e-3) << shown << " from " << start;
+            EXPECT_NEAR(run.last(shown), beside.last(shown), 2e-2) << shown << " from " << start;
+          }
+        }
+      }
+}
+
 std::string refusal(const Linkage& linkage) {
   try {
     check_linkage(linkage);
