@@ -289,7 +289,8 @@ int count_undriven_freedoms(const Linkage& linkage) {
   require(closure.assemble(0.0, assembled), "joints", "closed at t = 0");
   const auto coordinates =
       std::ranges::count(built.mechanism.coordinates, CoordinateRole::kJoint, &Coordinate::role);
-  return static_cast<int>(coordinates - closure.count_independent(assembled)) - static_cast<int>(built.mechanism.drives.size());
+  const auto left = static_cast<int>(coordinates - closure.count_independent(assembled));
+  return left - static_cast<int>(built.mechanism.drives.size());
 }
 
 }  // namespace engine
