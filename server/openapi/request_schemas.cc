@@ -131,7 +131,8 @@ Json make_replicates() {
 
 Json make_case() {
   Json properties = Json::object();
-  for (const auto& [key, schema] : jobs::parameter_schema().at("properties").items())
+  const Json parameters = jobs::parameter_schema();
+  for (const auto& [key, schema] : parameters.at("properties").items())
     properties[key] = openapi::ref("Parameters/properties/" + key);  // not std::ref
   return by_paths(std::move(properties), {{"type", "number"}});
 }
