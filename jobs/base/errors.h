@@ -69,4 +69,10 @@ class StoreLimitReached : public StorageError {
   explicit StoreLimitReached(const std::string& what) : StorageError(what, 0, Disk::kFull) {}
 };
 
+/// The store holds as much as it may.
+class StoreSizeReached : public StoreLimitReached {
+ public:
+  using StoreLimitReached::StoreLimitReached;
+};
+
 }  // namespace jobs

@@ -18,8 +18,8 @@ std::string megabytes(std::int64_t bytes) { return std::to_string(bytes / 1'000'
 void check_store(SQLite::Statement& used, std::int64_t most_bytes) {
   used.executeStep();
   if (used.getColumn(0).getInt64() <= most_bytes) return;
-  throw StoreLimitReached("the store may hold " + megabytes(most_bytes) +
-                          " and has no room for this; delete sweeps that are not needed any more");
+  throw StoreSizeReached("the store may hold " + megabytes(most_bytes) +
+                         " and has no room for this; delete sweeps that are not needed any more");
 }
 
 }  // namespace

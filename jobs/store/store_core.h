@@ -19,7 +19,8 @@
 
 namespace jobs {
 
-/// Why the store has no room for results, while the last one that came was refused.
+/// Why the store, as large as it may be, has no room for results: while the last one that came was refused.
+/// (What the disk has left is looked at whenever somebody asks.)
 class ResultRefusal {
  public:
   /// Calls store(), and remembers whether there was room. @throws whatever store() does
@@ -29,8 +30,8 @@ class ResultRefusal {
       auto stored = store();
       set("");
       return stored;
-    } catch (const StorageError& error) {
-      if (error.full) set(error.what());
+    } catch (const StoreSizeReached& refusal) {
+      set(refusal.what());
       throw;
     }
   }
