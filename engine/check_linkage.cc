@@ -125,6 +125,7 @@ std::vector<double> calc_carried_masses(const std::vector<Coordinate>& coordinat
 void check_mass_ratios(const Linkage& linkage, const BuiltLinkage& built,
                        const std::vector<FrameIndex>& free) {
   constexpr double kLeast = 5e-9;  // below, steps shrink to nothing
+  if (free.empty()) return;
   const std::vector<Coordinate>& coordinates = built.mechanism.coordinates;
   const std::vector<double> carried = calc_carried_masses(coordinates);
   const double most = *std::ranges::max_element(carried);

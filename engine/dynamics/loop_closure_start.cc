@@ -94,7 +94,7 @@ LoopClosure::Determinacy LoopClosure::find_determinacy(const Evaluation& assembl
 
 LoopClosure::Start LoopClosure::find_start(const Evaluation& assembled) {
   constexpr double kMoved = 0.05;  // of the perturbation: more than what a taut chain yields
-  if (rigid_rows_.empty()) return Start::kRegular;
+  if (rigid_rows_.empty() || ideal_.coordinates.empty()) return Start::kRegular;
   const bool can_start = can_accelerate(assembled);
   if (can_start && !assembled.qd.isZero(0.0)) return Start::kRegular;
   const Eigen::Index rank_here = calc_binding_rank();
