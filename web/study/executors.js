@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Panel of a service with a cluster: slots, tasks and nodes, and problems that need attention.
+// Panel of a service with a cluster: slots, tasks and nodes; and of any service: problems that need attention.
 import { h } from "/core/dom.js";
 import { plural } from "/core/format.js";
 
@@ -22,16 +22,16 @@ function clusterText({ name, slots, tasks, nodes, waiting }) {
 const hasTasks = (executor) => executor.tasks !== null;
 
 export function executorsPanel() {
-  const element = h("section", { class: "card", hidden: true, "aria-label": "Cluster" });
+  const element = h("section", { class: "card", hidden: true, "aria-label": "Where jobs run" });
 
   /** @param {Api.Executor[]} executors */
   function update(executors) {
     const clusters = executors.filter(hasTasks);
-    element.hidden = clusters.length === 0;
-    element.replaceChildren(...clusters.flatMap((cluster) => [
-      h("p", { class: "small" }, clusterText(cluster)),
-      ...cluster.problems.map((problem) => h("p", { class: "small trouble" }, problem)),
-    ]));
+    const problems = new Set(executors.flatMap((executor) => executor.problems));
+    element.hidden = clusters.length === 0 && problems.size === 0;
+    element.replaceChildren(
+      ...clusters.map((cluster) => h("p", { class: "small" }, clusterText(cluster))),
+      ...[...problems].map((problem) => h("p", { class: "small trouble" }, problem)));
   }
 
   return { element, update };
