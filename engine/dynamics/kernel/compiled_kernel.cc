@@ -35,12 +35,13 @@ DynamicsKernel* try_topologies(const TreeModel& model, const std::vector<Clearan
 /// constraint solver passes addresses of the workspaces to functions that are not inlined, so that nothing
 /// stays in registers. In the seventh, of the rigid linkage with clearance, an actuator moves the crank.
 ///
-/// With RPSUP_FEW_TOPOLOGIES there are three, which take the compiler half the time; other linkages are
-/// slower.
+/// With RPSUP_FEW_TOPOLOGIES there are four, one of each kind, which take the compiler less time; other
+/// linkages are slower.
 DynamicsKernel* make_compiled_kernel(const TreeModel& model, const std::vector<ClearanceJoint>& joints,
                                      std::size_t bristles, AppliedValues applied) {
 #if defined(RPSUP_FEW_TOPOLOGIES)
   return try_topologies<StaticTopology<kRigidRpsup, true>, StaticTopology<kFlexibleRpsup, true>,
+                        StaticTopology<kFlexibleRpsup, false>::Rolled,
                         StaticTopology<kRigidRpsupAcross, true>, DynamicTopology>(model, joints, bristles,
                                                                                   applied);
 #else
