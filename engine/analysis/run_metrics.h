@@ -76,8 +76,8 @@ class RunMetrics {
   [[nodiscard]] const EnergyAccount& last_energy() const { return last_energy_; }
   /// Largest |E - E(0) - work of the drives + losses|, [J]
   [[nodiscard]] double largest_imbalance() const { return largest_imbalance_; }
-  /// What an energy residual is measured against: work of the drives and losses, counted without sign, or
-  /// the largest kinetic energy or change of potential energy, whichever is larger, [J].
+  /// Scale of the energy residual: work of the drives and losses, counted without sign, or the largest
+  /// kinetic energy or change of potential energy, whichever is larger, [J].
   [[nodiscard]] double energy_scale() const { return std::max(turned_over_, largest_in_motion_); }
   /// The one over the other; not a number if nothing moves.
   [[nodiscard]] double calc_energy_residual() const;

@@ -55,14 +55,21 @@ TEST(Accelerometers, ShowWhatAPendulumFeels) {
 Linkage make_pendulum_and_frame() {
   Linkage linkage = make_sensed_pendulum();
   linkage.bodies.push_back(make_body("frame", 1.0, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3}));
-  linkage.joints.push_back({.name = "bolts", .kind = JointKind::kWeld, .from = kGroundName, .to = "frame", .placement = {}});
-  linkage.accelerometers.push_back({.name = "fixed", .body = "frame", .at = {1.0, 2.0, 3.0}, .direction = {0.0, 1.0, 0.0}});
-  linkage.loads = {{.name = "push", .body = "frame", .at = {1.0, 0.0, 0.0}, .force = {3.0, 0.0, 0.0}, .law = Constant{2.0}}};
+  linkage.joints.push_back(
+      {.name = "bolts", .kind = JointKind::kWeld, .from = kGroundName, .to = "frame", .placement = {}});
+  linkage.accelerometers.push_back(
+      {.name = "fixed", .body = "frame", .at = {1.0, 2.0, 3.0}, .direction = {0.0, 1.0, 0.0}});
+  linkage.loads = {{.name = "push",
+                    .body = "frame",
+                    .at = {1.0, 0.0, 0.0},
+                    .force = {3.0, 0.0, 0.0},
+                    .law = Constant{2.0}}};
   return linkage;
 }
 
 TEST(Accelerometers, ShowGravityOnABodyThatDoesNotMove) {
-  const LinkageRun alone(make_sensed_pendulum(), accurate(0.5)), run(make_pendulum_and_frame(), accurate(0.5));
+  const LinkageRun alone(make_sensed_pendulum(), accurate(0.5)),
+      run(make_pendulum_and_frame(), accurate(0.5));
   for (const double shown : run.column("fixed_accelerometer_m_s2")) EXPECT_NEAR(shown, kGravity, 1e-12);
   EXPECT_NEAR(run.metric("peak_fixed_accelerometer_m_s2"), kGravity, 1e-12);
   EXPECT_EQ(run.last("push_n"), 2.0);
@@ -74,11 +81,21 @@ TEST(Accelerometers, ShowGravityOnABodyThatDoesNotMove) {
 TEST(Accelerometers, ShowTheGroundsAccelerationAtTheRootOfACantilever) {
   Linkage linkage;
   linkage.gravity_W.setZero();
-  linkage.bodies = {{.name = "rod", .mass = 1.0, .beam = UniformBeam{.length = 1.0, .mass = 1.0, .I_x = 1e-5, .EI_y = 175.0, .EI_z = 175.0, .GJ = 100.0}, .elements = 4}};
-  linkage.joints = {{.name = "bolt", .kind = JointKind::kWeld, .from = kGroundName, .to = "rod", .placement = {}}};
+  linkage.bodies = {
+      {.name = "rod",
+       .mass = 1.0,
+       .beam =
+           UniformBeam{.length = 1.0, .mass = 1.0, .I_x = 1e-5, .EI_y = 175.0, .EI_z = 175.0, .GJ = 100.0},
+       .elements = 4}};
+  linkage.joints = {
+      {.name = "bolt", .kind = JointKind::kWeld, .from = kGroundName, .to = "rod", .placement = {}}};
   linkage.ground_acceleration[1] = Constant{3.0};
   linkage.accelerometers = {{.name = "root", .body = "rod", .direction = {0.0, 1.0, 0.0}}};
-  linkage.loads = {{.name = "near", .body = "rod", .at = {0.03, 0.0, 0.0}, .force = {0.0, 1.0, 0.0}, .law = Constant{5.0}}};
+  linkage.loads = {{.name = "near",
+                    .body = "rod",
+                    .at = {0.03, 0.0, 0.0},
+                    .force = {0.0, 1.0, 0.0},
+                    .law = Constant{5.0}}};
   const LinkageRun run(linkage, {.duration = 0.05});
   for (const double shown : run.column("root_accelerometer_m_s2")) EXPECT_NEAR(shown, 3.0, 1e-12);
 }

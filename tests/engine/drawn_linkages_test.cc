@@ -99,14 +99,25 @@ LinkageJoint draw_loop(Draw& draw, const Linkage& linkage, const std::vector<Pla
 void draw_attachments(Draw& draw, Linkage& linkage) {
   for (const LinkageBody& body : linkage.bodies) {
     if (draw.happens(0.4))
-      linkage.loads.push_back({.name = body.name + "_load", .body = body.name, .at = draw.point(0.2), .force = draw.point(5.0),
-                               .follows_body = draw.happens(0.5), .law = Constant{1.0}});
+      linkage.loads.push_back({.name = body.name + "_load",
+                               .body = body.name,
+                               .at = draw.point(0.2),
+                               .force = draw.point(5.0),
+                               .follows_body = draw.happens(0.5),
+                               .law = Constant{1.0}});
     if (draw.happens(0.4))
-      linkage.accelerometers.push_back({.name = body.name + "_sensor", .body = body.name, .at = draw.point(0.2),
+      linkage.accelerometers.push_back({.name = body.name + "_sensor",
+                                        .body = body.name,
+                                        .at = draw.point(0.2),
                                         .direction = draw.point(1.0).normalized()});
     if (draw.happens(0.2))
-      linkage.springs.push_back({.name = body.name + "_spring", .from = kGroundName, .to = body.name, .at = draw.point(0.5),
-                                 .to_at = draw.point(0.2), .stiffness = 50.0, .damping = 0.1});
+      linkage.springs.push_back({.name = body.name + "_spring",
+                                 .from = kGroundName,
+                                 .to = body.name,
+                                 .at = draw.point(0.5),
+                                 .to_at = draw.point(0.2),
+                                 .stiffness = 50.0,
+                                 .damping = 0.1});
   }
 }
 
@@ -140,7 +151,11 @@ Linkage turn(Linkage linkage, const Eigen::Matrix3d& R) {
   return linkage;
 }
 
-constexpr RunOptions kDrawnRun{.duration = 0.1, .output_rate = 100.0, .relative_tolerance = 1e-7, .absolute_tolerance = 1e-7, .step_limit = 20'000};
+constexpr RunOptions kDrawnRun{.duration = 0.1,
+                               .output_rate = 100.0,
+                               .relative_tolerance = 1e-7,
+                               .absolute_tolerance = 1e-7,
+                               .step_limit = 20'000};
 
 /// A run of a linkage, by what it must hold whatever the linkage is. @returns its status; empty if it was refused
 std::optional<RunStatus> run_drawn(const Linkage& linkage) {
@@ -158,7 +173,8 @@ std::optional<RunStatus> run_drawn(const Linkage& linkage) {
     constexpr double kRounding = 1e-13;
     EXPECT_TRUE(metric("energy_imbalance_j") < 1e-4 || metric("energy_residual") < kRounding) << metric("energy_imbalance_j");
     for (std::size_t k = 0; k < metrics.size(); ++k)
-      EXPECT_TRUE(!metrics[k].key.ends_with("_accelerometer_m_s2") || std::isfinite(run.metrics[k])) << metrics[k].key;
+      EXPECT_TRUE(!metrics[k].key.ends_with("_accelerometer_m_s2") || std::isfinite(run.metrics[k]))
+          << metrics[k].key;
     return run.status;
   } catch (const InvalidInput& refusal) {
     EXPECT_FALSE(refusal.field().empty());
@@ -180,7 +196,7 @@ TEST(DrawnLinkages, RunOrSayWhyNot) {
   EXPECT_LE(refused, 110);  // their drives contradict each other or the loops; the few that are left lock up on their way
 }
 
-/// What a linkage without clearance comes to: refused, its status, or its redundancy and energies at the end.
+/// Outcome of a linkage without clearance: a refusal, a status, or redundancy and energies at the end.
 struct DrawnOutcome {
   bool is_refused = false;
   RunStatus status = RunStatus::kSucceeded;
@@ -208,8 +224,11 @@ TEST(DrawnLinkages, AreTheSameTurnedAsAWhole) {
     SCOPED_TRACE(seed);
     Draw draw(seed);
     const Linkage linkage = draw_linkage(draw);
-    if (std::ranges::any_of(linkage.joints, [](const LinkageJoint& joint) { return joint.clearance.has_value(); })) continue;
-    const DrawnOutcome given = find_drawn_outcome(linkage), turned = find_drawn_outcome(turn(linkage, draw_turn(draw, false)));
+    if (std::ranges::any_of(linkage.joints,
+                            [](const LinkageJoint& joint) { return joint.clearance.has_value(); }))
+      continue;
+    const DrawnOutcome given = find_drawn_outcome(linkage),
+                       turned = find_drawn_outcome(turn(linkage, draw_turn(draw, false)));
     EXPECT_EQ(given.is_refused, turned.is_refused);
     EXPECT_EQ(given.status, turned.status);
     EXPECT_EQ(given.redundant, turned.redundant);

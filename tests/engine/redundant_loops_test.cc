@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "engine/errors.h"
 #include "tests/engine/linkage_cases.h"
@@ -28,19 +28,26 @@ Linkage make_welded_triangle(JointKind carrier, const Eigen::Matrix3d& R) {
   Linkage linkage;
   for (const char* const name : {"a", "b", "c"})
     linkage.bodies.push_back(make_body(name, 1.0, {0.5, 0.0, 0.0}, {1e-3, 8e-2, 8e-2}));
-  LinkageJoint joint{.name = "carrier", .kind = carrier, .from = kGroundName, .to = "a", .placement = {.R = R}};
-  for (std::size_t k = 0; k < freedoms_of(joint).size(); ++k) joint.freedoms.push_back({.name = "q" + std::to_string(k)});
+  LinkageJoint joint{
+      .name = "carrier", .kind = carrier, .from = kGroundName, .to = "a", .placement = {.R = R}};
+  for (std::size_t k = 0; k < freedoms_of(joint).size(); ++k)
+    joint.freedoms.push_back({.name = "q" + std::to_string(k)});
   linkage.joints.push_back(joint);
-  const Placement corner{.R = Eigen::AngleAxisd(2.0 * std::numbers::pi / 3.0, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-                         .p = {1.0, 0.0, 0.0}};
-  linkage.joints.push_back({.name = "ab", .kind = JointKind::kWeld, .from = "a", .to = "b", .placement = corner});
-  linkage.joints.push_back({.name = "bc", .kind = JointKind::kWeld, .from = "b", .to = "c", .placement = corner});
-  linkage.joints.push_back({.name = "ca", .kind = JointKind::kWeld, .from = "c", .to = "a", .placement = corner, .cut = true});
+  const Placement corner{
+      .R = Eigen::AngleAxisd(2.0 * std::numbers::pi / 3.0, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
+      .p = {1.0, 0.0, 0.0}};
+  linkage.joints.push_back(
+      {.name = "ab", .kind = JointKind::kWeld, .from = "a", .to = "b", .placement = corner});
+  linkage.joints.push_back(
+      {.name = "bc", .kind = JointKind::kWeld, .from = "b", .to = "c", .placement = corner});
+  linkage.joints.push_back(
+      {.name = "ca", .kind = JointKind::kWeld, .from = "c", .to = "a", .placement = corner, .cut = true});
   return linkage;
 }
 
 TEST(Redundancy, OfAWeldThatIsThereAlreadyIsSix) {
-  for (const JointKind carrier : {JointKind::kRevolute, JointKind::kCylindrical, JointKind::kUniversal, JointKind::kSpherical, JointKind::kFree})
+  for (const JointKind carrier : {JointKind::kRevolute, JointKind::kCylindrical, JointKind::kUniversal,
+                                  JointKind::kSpherical, JointKind::kFree})
     for (const Eigen::Matrix3d& R : some_rotations()) {
       const LinkageRun run(make_welded_triangle(carrier, R), {.duration = 0.1});
       EXPECT_EQ(run.metric("redundant_constraints"), 6.0) << static_cast<int>(carrier);
@@ -52,18 +59,31 @@ Linkage make_door(JointKind kind, const Eigen::Matrix3d& R) {
   Linkage linkage;
   linkage.bodies = {make_body("door", 10.0, {0.4, 0.0, 0.6}, {1.0, 1.0, 0.5})};
   LinkageJoint low{.name = "low", .kind = kind, .from = kGroundName, .to = "door", .placement = {.R = R}};
-  for (std::size_t k = 0; k < freedoms_of(low).size(); ++k) low.freedoms.push_back({.name = "q" + std::to_string(k)});
+  for (std::size_t k = 0; k < freedoms_of(low).size(); ++k)
+    low.freedoms.push_back({.name = "q" + std::to_string(k)});
   const Eigen::Vector3d up(0.0, 0.0, 1.2);
-  linkage.joints = {low, {.name = "high", .kind = kind, .from = kGroundName, .to = "door", .placement = {.R = R, .p = R * up}, .cut = true,
-                          .to_placement = {.p = up}}};
+  linkage.joints = {low,
+                    {.name = "high",
+                     .kind = kind,
+                     .from = kGroundName,
+                     .to = "door",
+                     .placement = {.R = R, .p = R * up},
+                     .cut = true,
+                     .to_placement = {.p = up}}};
   return linkage;
 }
 
 TEST(Redundancy, OfASecondJointInLineIsAllOfIt) {
   for (const Eigen::Matrix3d& R : some_rotations()) {
-    EXPECT_EQ(LinkageRun(make_door(JointKind::kRevolute, R), {.duration = 0.1}).metric("redundant_constraints"), 5.0);
-    EXPECT_EQ(LinkageRun(make_door(JointKind::kPrismatic, R), {.duration = 0.1}).metric("redundant_constraints"), 5.0);
-    EXPECT_EQ(LinkageRun(make_door(JointKind::kCylindrical, R), {.duration = 0.1}).metric("redundant_constraints"), 4.0);
+    EXPECT_EQ(
+        LinkageRun(make_door(JointKind::kRevolute, R), {.duration = 0.1}).metric("redundant_constraints"),
+        5.0);
+    EXPECT_EQ(
+        LinkageRun(make_door(JointKind::kPrismatic, R), {.duration = 0.1}).metric("redundant_constraints"),
+        5.0);
+    EXPECT_EQ(
+        LinkageRun(make_door(JointKind::kCylindrical, R), {.duration = 0.1}).metric("redundant_constraints"),
+        4.0);
   }
 }
 
@@ -71,12 +91,27 @@ TEST(Redundancy, OfASecondJointInLineIsAllOfIt) {
 Linkage make_started_four_bar(const std::vector<double>& starts, const std::vector<double>& rates) {
   Linkage linkage;
   linkage.gravity_W = {0.0, -9.81, 0.0};
-  linkage.bodies = {make_body("crank", 1.0, {0.1, 0.0, 0.0}, {1e-3, 1e-2, 1e-2}), make_body("rod", 1.0, {0.25, 0.0, 0.0}, {1e-3, 2e-2, 2e-2}),
+  linkage.bodies = {make_body("crank", 1.0, {0.1, 0.0, 0.0}, {1e-3, 1e-2, 1e-2}),
+                    make_body("rod", 1.0, {0.25, 0.0, 0.0}, {1e-3, 2e-2, 2e-2}),
                     make_body("rocker", 1.0, {0.2, 0.0, 0.0}, {1e-3, 2e-2, 2e-2})};
-  linkage.joints = {{.name = "A", .from = kGroundName, .to = "crank", .placement = {}, .freedoms = {{.name = "A"}}},
-                    {.name = "B", .from = "crank", .to = "rod", .placement = {.p = {0.2, 0.0, 0.0}}, .freedoms = {{.name = "B"}}},
-                    {.name = "D", .from = kGroundName, .to = "rocker", .placement = {.p = {0.5, 0.0, 0.0}}, .freedoms = {{.name = "D"}}},
-                    {.name = "C", .from = "rod", .to = "rocker", .placement = {.p = {0.5, 0.0, 0.0}}, .cut = true, .to_placement = {.p = {0.4, 0.0, 0.0}}}};
+  linkage.joints = {
+      {.name = "A", .from = kGroundName, .to = "crank", .placement = {}, .freedoms = {{.name = "A"}}},
+      {.name = "B",
+       .from = "crank",
+       .to = "rod",
+       .placement = {.p = {0.2, 0.0, 0.0}},
+       .freedoms = {{.name = "B"}}},
+      {.name = "D",
+       .from = kGroundName,
+       .to = "rocker",
+       .placement = {.p = {0.5, 0.0, 0.0}},
+       .freedoms = {{.name = "D"}}},
+      {.name = "C",
+       .from = "rod",
+       .to = "rocker",
+       .placement = {.p = {0.5, 0.0, 0.0}},
+       .cut = true,
+       .to_placement = {.p = {0.4, 0.0, 0.0}}}};
   for (std::size_t k = 0; k < starts.size(); ++k) {
     linkage.joints[k].freedoms[0].start = starts[k];
     if (!rates.empty()) linkage.joints[k].freedoms[0].start_rate = rates[k];
@@ -114,7 +149,8 @@ TEST(Starts, ThatTearALoopApartAreRefused) {
       EXPECT_EQ(std::string(fault.what()).find("gap of 0 m"), std::string::npos) << fault.what();
     }
   }
-  EXPECT_THROW(check_linkage(make_started_four_bar({1.0, -0.52608883, 1.43801773}, {1.0, 1.0, 1.0})), InvalidInput);
+  EXPECT_THROW(check_linkage(make_started_four_bar({1.0, -0.52608883, 1.43801773}, {1.0, 1.0, 1.0})),
+               InvalidInput);
 }
 
 }  // namespace

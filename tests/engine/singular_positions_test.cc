@@ -315,10 +315,18 @@ Linkage make_hinge_of_two(JointKind carrier, JointKind closing, double start) {
   const std::size_t count = freedoms_of(joint).size();
   for (std::size_t k = 0; k < count; ++k) joint.freedoms.push_back({.name = "q" + std::to_string(k)});
   joint.freedoms[count - 2].start = start;
-  const Eigen::Matrix3d to_y = Eigen::AngleAxisd(-0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  linkage.joints = {joint, {.name = "closing", .kind = closing, .from = kGroundName, .to = "body", .placement = {.R = to_y}, .cut = true,
-                            .to_placement = {.R = to_y}}};
-  linkage.accelerometers = {{.name = "sensor", .body = "body", .at = {0.1, 0.2, 0.3}, .direction = {1.0, 0.0, 0.0}}};
+  const Eigen::Matrix3d to_y =
+      Eigen::AngleAxisd(-0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  linkage.joints = {joint,
+                    {.name = "closing",
+                     .kind = closing,
+                     .from = kGroundName,
+                     .to = "body",
+                     .placement = {.R = to_y},
+                     .cut = true,
+                     .to_placement = {.R = to_y}}};
+  linkage.accelerometers = {
+      {.name = "sensor", .body = "body", .at = {0.1, 0.2, 0.3}, .direction = {1.0, 0.0, 0.0}}};
   return linkage;
 }
 
@@ -332,7 +340,8 @@ TEST(GimbalLock, AtTheStartIsNoneOfTheLinkage) {
         for (const double start : {right, right + 1e-9, sign * 1.5708}) {
           const LinkageRun run(make_hinge_of_two(carrier, closing, start), accurate(0.1));
           EXPECT_EQ(run.metric("redundant_constraints"), beside.metric("redundant_constraints"));
-          for (const char* const shown : {"sensor_accelerometer_m_s2", "carrier_reaction_n", "kinetic_energy_j"}) {
+          for (const char* const shown :
+               {"sensor_accelerometer_m_s2", "carrier_reaction_n", "kinetic_energy_j"}) {
             EXPECT_NEAR(run.column(shown)[0], beside.column(shown)[0], 2e-3) << shown << " from " << start;
             EXPECT_NEAR(run.last(shown), beside.last(shown), 2e-2) << shown << " from " << start;
           }
@@ -372,7 +381,8 @@ TEST(HalfTurn, IsAGap) {
 
 // Axes a right angle off, where scalar products pull nowhere.
 TEST(RightAngle, ClosesFromTheGuess) {
-  for (const JointKind kind : {JointKind::kWeld, JointKind::kPrismatic, JointKind::kRevolute, JointKind::kCylindrical})
+  for (const JointKind kind :
+       {JointKind::kWeld, JointKind::kPrismatic, JointKind::kRevolute, JointKind::kCylindrical})
     for (const int axis : {0, 1, 2})
       for (const double angle : {-0.5 * std::numbers::pi, 0.5 * std::numbers::pi}) {
         Linkage linkage = make_turned(kind, Eigen::Vector3d::Unit(axis), angle);

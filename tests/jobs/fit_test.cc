@@ -420,7 +420,8 @@ TEST(Fit, FitsNoSampleTwice) {
   EXPECT_EQ(places_with(R"({"runs": [0]})", R"({"runs": [1, 0]})"), Places{"/measurements/1"});
   EXPECT_EQ(places_with(R"({"runs": [0]})", R"({"runs": [1]})"), Places{});
   EXPECT_EQ(places_with(R"({"fitted": [[0.1, 0.2]]})", R"({"fitted": [[0.3, 0.4]]})"), Places{});
-  EXPECT_EQ(places_with(R"({"fitted": [[0.1, 0.3]]})", R"({"fitted": [[0.2, 0.4]]})"), Places{"/measurements/1"});
+  EXPECT_EQ(places_with(R"({"fitted": [[0.1, 0.3]]})", R"({"fitted": [[0.2, 0.4]]})"),
+            Places{"/measurements/1"});
   EXPECT_EQ(places_with(R"({"time_shift_s": 0.001})", "{}"), Places{"/measurements/1"});
   EXPECT_EQ(places_with(R"({"held_back_runs": [0, 1]})", "{}"), Places{});
 }
@@ -435,9 +436,10 @@ TEST(Fit, SaysWhichSamplesItFits) {
     static_cast<void>(service.submit_study(kFit, request));
     ADD_FAILURE();
   } catch (const jobs::InvalidRequest& invalid) {
-    EXPECT_THAT(invalid.faults().front().detail, testing::AllOf(testing::HasSubstr("0 samples to be fitted"),
-                                               testing::HasSubstr("from run_up_s, 40 s, on"),
-                                               testing::HasSubstr("another run_up_s, or windows in")));
+    EXPECT_THAT(invalid.faults().front().detail,
+                testing::AllOf(testing::HasSubstr("0 samples to be fitted"),
+                               testing::HasSubstr("from run_up_s, 40 s, on"),
+                               testing::HasSubstr("another run_up_s, or windows in")));
   }
 }
 

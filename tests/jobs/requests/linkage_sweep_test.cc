@@ -157,7 +157,8 @@ TEST(LinkageSweep, ComparesReplicatesByTheMetricThatIsChosen) {
   ASSERT_TRUE(service.wait_for_sweep(id, std::chrono::minutes(2)));
   const auto unasked = service.find_results(id);
   const std::string by_default = jobs::choose_free_metric(*service.find_sweep(id), *unasked, "");
-  EXPECT_NE(by_default, unasked->columns.at(3)) << "the first one, behind job_id, state, replicate, is driven";
+  EXPECT_NE(by_default, unasked->columns.at(3))
+      << "the first one, behind job_id, state, replicate, is driven";
   expect_statistics_of(*unasked, by_default);
   expect_statistics_of(*service.find_results(id, {.metric = metric}), metric);
   EXPECT_EQ(pointers_of(faults_of([&] { (void)service.find_results(id, {.metric = "no_metric"}); })),

@@ -88,7 +88,8 @@ TEST(StoreLimit, RefusesWhatHasNoRoomAndStoresNoneOfIt) {
   EXPECT_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kLarge), 10'000), kLarge, kMaxQueued),
                jobs::StoreLimitReached);
   EXPECT_NO_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, kMaxQueued));
-  EXPECT_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, 1), jobs::QueueFull);
+  EXPECT_THROW(store.queue.check_sweep(jobs::plan_sweep(request_of(kSmall), 10'000), kSmall, 1),
+               jobs::QueueFull);
   EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 1u);
   // The result of a job, too; it can be read and cancelled, and deleting makes room.
   const jobs::ClaimedJob job = store.queue.claim().value();

@@ -334,14 +334,15 @@ TEST(Analyses, SayWhichOnlyRpsupHas) {
 
 TEST(Analyses, RefuseMotionsThatWereNotKept) {
   Bench bench;
-  const std::string id = bench.run(
-      R"({"sweep": {"clearance_mm": [0.1]}, "replicates": {"count": 2}, "keep": "metrics"})");
+  const std::string id =
+      bench.run(R"({"sweep": {"clearance_mm": [0.1]}, "replicates": {"count": 2}, "keep": "metrics"})");
   for (const char* const analysis : {"/lyapunov", "/bifurcation"}) {
     const auto refused = bench.call("GET", "/v1/sweeps/" + id + analysis);
     EXPECT_EQ(refused.status, 409) << analysis;
     EXPECT_NE(refused.body.find("keep"), std::string::npos) << refused.body;
   }
-  const std::string job = json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body).at(0).at("job_id");
+  const std::string job =
+      json::parse(bench.call("GET", "/v1/sweeps/" + id + "/results").body).at(0).at("job_id");
   for (const char* const of_job : {"/trajectory", "/spectrum", "/poincare"}) {
     const auto missing = bench.call("GET", "/v1/jobs/" + job + of_job);
     EXPECT_EQ(missing.status, 404) << of_job;

@@ -87,8 +87,10 @@ TEST(ETag, SparesWhatTheClientHas) {
 TEST(ETag, GuardsWhatHasChangedSince) {
   Bench bench;
   const std::string path = "/v1/sweeps/" + bench.run(kContractSweep);
-  const auto change = [&](const std::string& method, const std::string& at, const std::string& body, const std::string& tags) {
-    server::Request request{.method = method, .path = at, .query = {}, .accept = {}, .body = body, .id = "test-1"};
+  const auto change = [&](const std::string& method, const std::string& at, const std::string& body,
+                          const std::string& tags) {
+    server::Request request{
+        .method = method, .path = at, .query = {}, .accept = {}, .body = body, .id = "test-1"};
     request.if_match = tags;
     return bench.call(request);
   };
@@ -105,7 +107,8 @@ TEST(ETag, GuardsWhatHasChangedSince) {
   EXPECT_EQ(change("DELETE", path, "", now).status, 204);
   Bench other(endless_run);
   const std::string running = "/v1/sweeps/" + other.submit(kContractSweep);
-  server::Request cancel{.method = "POST", .path = running + "/cancel", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
+  server::Request cancel{
+      .method = "POST", .path = running + "/cancel", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
   cancel.if_match = seen;
   EXPECT_EQ(other.call(cancel).status, 412);
   cancel.if_match = "*";
@@ -130,7 +133,8 @@ TEST(StoreLimit, IsSeenFromOutside) {
   EXPECT_EQ(sweep.at("state"), "running");
   EXPECT_TRUE(sweep.at("eta_s").is_null());
   const json executors = json::parse(bench.call("GET", "/v1/executors").body);
-  EXPECT_NE(executors.at("items")[0].at("problems").dump().find("results wait to be stored"), std::string::npos);
+  EXPECT_NE(executors.at("items")[0].at("problems").dump().find("results wait to be stored"),
+            std::string::npos);
   // A dry run is refused as the submission would be.
   const std::string large = R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.4, "count": 5000}}})";
   EXPECT_EQ(bench.call("POST", "/v1/sweeps", large).status, 507);
