@@ -3,20 +3,20 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/simulate_rpsup.h"
 #include "tests/bench/codes/code_run.h"
 #include "tests/bench/support/samples.h"
 
 namespace bench {
 
-/// Another code with one method of its own.
-struct Rival {
+/// A code with one of its methods.
+struct Competitor {
   std::string name;
   double accuracy;        ///< how far its peak may be off: beyond, it computes another physics; relative
-  double wanted_ratio;    ///< its time over ours that is asked for
+  std::optional<double> wanted_ratio;  ///< its time over ours that is asked for
   std::function<CodeRun()> run;
   Samples seconds{};
   CodeRun last{};
@@ -25,27 +25,24 @@ struct Rival {
 /// One job in our code and in others, by turns.
 class Contest {
  public:
-  /// @param method  what our options stand for
-  Contest(std::string title, std::string method, engine::RpsupParameters parameters,
-          engine::RunOptions options, std::vector<Rival> rivals);
+  /// @param measured   whose peaks are compared, with its unit
+  /// @param reference  our code at a tight tolerance
+  Contest(std::string title, std::string measured, std::function<CodeRun()> reference, Competitor ours,
+          std::vector<Competitor> rivals);
 
   void run(int repeats);
   void print(std::ostream& out) const;
   /// True if every code's peak is that of the tight reference, within its accuracy.
   [[nodiscard]] bool is_fair() const;
 
-  [[nodiscard]] const std::vector<Rival>& rivals() const { return rivals_; }
-
  private:
-  void run_ours();
   [[nodiscard]] double calc_error(const CodeRun& run) const { return run.peak / reference_.peak - 1.0; }
-  [[nodiscard]] std::vector<std::string> make_row(const Rival& rival) const;
+  [[nodiscard]] std::vector<std::string> make_row(const Competitor& competitor) const;
 
-  std::string title_;
-  engine::RpsupParameters parameters_;
-  engine::RunOptions options_;
-  std::vector<Rival> rivals_;
-  Rival ours_;
+  std::string title_, measured_;
+  std::function<CodeRun()> run_reference_;
+  Competitor ours_;
+  std::vector<Competitor> rivals_;
   CodeRun reference_;
 };
 

@@ -7,15 +7,20 @@
 
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <iostream>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/bench/codes/contest.h"
+#include "tests/bench/codes/large_linkages.h"
 #include "tests/bench/codes/make_plain_linkage.h"
 #include "tests/bench/codes/mujoco_linkage.h"
-#include "tests/bench/codes/rpsup_jobs.h"
+#include "tests/bench/codes/our_jobs.h"
 #include "tests/bench/codes/simbody_linkage.h"
 #include "tests/bench/support/cases.h"
 #include "tests/bench/support/cpu_time.h"
@@ -26,19 +31,36 @@ namespace {
 
 using engine::Coupler;
 using engine::RpsupParameters;
+using engine::RunOptions;
 
 constexpr double kDuration = 4.0;  // [s]
 constexpr double kStep = 1e-5;     // of MuJoCo's integrators, [s]
+constexpr int kTreeBodies = 100, kChainLoops = 10;
+constexpr const char *kTree = "tree of 100 bodies", *kChain = "chain of 10 loops";
 
-Rival mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, const char* name,
-             double accuracy, double wanted_ratio) {
+Competitor mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, const char* name,
+                  double accuracy, double wanted_ratio) {
   return {name, accuracy, wanted_ratio,
           [=] { return run_mujoco(make_plain_linkage(parameters), integrator, kStep, kDuration); }};
 }
 
+/// The other codes' peaks are measured against this one, too.
+RunOptions tight(double duration) {
+  return {.duration = duration,
+          .integrator = engine::Integrator::kDopri5,
+          .relative_tolerance = 1e-8,
+          .absolute_tolerance = 1e-9};
+}
+
+engine::FrameIndex find_coordinate(const engine::Mechanism& mechanism, const std::string& name) {
+  for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i)
+    if (mechanism.coordinates[i].name == name) return static_cast<engine::FrameIndex>(i);
+  throw std::invalid_argument("no coordinate " + name);
+}
+
 struct Method {
   std::string name;
-  engine::RunOptions options;
+  RunOptions options;
 };
 
 /// Ours: what a job takes if nothing else is asked for, and the explicit method.
@@ -51,35 +73,76 @@ std::vector<Method> our_methods() {
             .absolute_tolerance = 1e-6}}};
 }
 
+Contest make_contest(const std::string& title, const Method& method, const RpsupParameters& parameters,
+                     std::vector<Competitor> rivals) {
+  return {title,
+          "slider acceleration [m/s^2]",
+          [=] { return run_rpsup(parameters, tight(kDuration)); },
+          {"rpsup, " + method.name, 1e-3, {}, [=] { return run_rpsup(parameters, method.options); }},
+          std::move(rivals)};
+}
+
 Contest make_rigid_contest(const Method& method) {
   const RpsupParameters parameters = linkage(Coupler::kRigid, 0.25e-3, 10.0);
-  return {"rigid, 0.25 mm, 10 rad/s, 4 s",
-          method.name,
-          parameters,
-          method.options,
-          {mujoco(parameters, MujocoIntegrator::kEuler, "MuJoCo, Euler 1e-5 s", 5e-3, 10.0),
-           mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 35.0),
-           {"Simbody, Merson 1e-6", 1e-3, 70.0,
-            [=] { return run_simbody(make_plain_linkage(parameters), 1e-6, kDuration); }}}};
+  return make_contest("rigid, 0.25 mm, 10 rad/s, 4 s", method, parameters,
+                      {mujoco(parameters, MujocoIntegrator::kEuler, "MuJoCo, Euler 1e-5 s", 5e-3, 10.0),
+                       mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 35.0),
+                       {"Simbody, Merson 1e-6", 1e-3, 70.0,
+                        [=] { return run_simbody(make_plain_linkage(parameters), 1e-6, kDuration); }}});
 }
 
 Contest make_flexible_contest(const Method& method) {
   const RpsupParameters parameters = linkage(Coupler::kFlexible, 0.25e-3, 10.0);
-  return {"flexible, 0.25 mm, 10 rad/s, 4 s", method.name, parameters, method.options,
-          {mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 30.0)}};
+  return make_contest("flexible, 0.25 mm, 10 rad/s, 4 s", method, parameters,
+                      {mujoco(parameters, MujocoIntegrator::kRk4, "MuJoCo, RK4 1e-5 s", 1e-3, 30.0)});
+}
+
+/// A described linkage without contacts.
+/// @param step, simbody_accuracy  of MuJoCo's RK4, [s], and of Simbody: the largest of 1, 2, 4 and 8 times a
+/// power of ten with which the peak holds
+Contest make_large_contest(const std::string& title, const LargeLinkage& large, double step,
+                           double simbody_accuracy) {
+  constexpr double kShort = 2.0;  // [s]
+  const auto built = std::make_shared<engine::BuiltLinkage>(engine::build_linkage(large.linkage));
+  const auto plain = [=] {
+    return make_plain_linkage(built->mechanism, find_coordinate(built->mechanism, large.measured));
+  };
+  const auto ours = [=](const RunOptions& options) {
+    return run_linkage(large.linkage, large.measured, options);
+  };
+  return {
+      title,
+      "acceleration [rad/s^2]",
+      [=] { return ours(tight(kShort)); },
+      {"rpsup, default integrator", 1e-3, {}, [=] { return ours({.duration = kShort}); }},
+      {{"rpsup, 10 Hz of output", 1e-3, {}, [=] { return ours({.duration = kShort, .output_rate = 10.0}); }},
+       {"MuJoCo, RK4 " + digits(step, 2) + " s",
+        1e-3,
+        {},
+        [=] { return run_mujoco(plain(), MujocoIntegrator::kRk4, step, kShort); }},
+       {"Simbody, Merson " + digits(simbody_accuracy, 2), 1e-3, {}, [=] {
+          return run_simbody(plain(), simbody_accuracy, kShort);
+        }}}};
 }
 
 void print_evaluations() {
   std::cout << "\nOne evaluation of the equations of motion, every ring in contact\n\n";
-  Table table({"coupler", "rpsup [us]", "MuJoCo [us]", "Simbody [us]", "MuJoCo / rpsup", "Simbody / rpsup"});
+  Table table({"linkage", "rpsup [us]", "MuJoCo [us]", "Simbody [us]", "MuJoCo / rpsup", "Simbody / rpsup"});
+  const auto add = [&table](const char* name, double ours, const std::function<PlainLinkage()>& plain) {
+    const double mujoco = time_mujoco_evaluation(plain());
+    const double simbody = time_simbody_evaluation(plain());
+    table.add({name, digits(1e6 * ours, 3), digits(1e6 * mujoco, 3), digits(1e6 * simbody, 3),
+               digits(mujoco / ours, 3), digits(simbody / ours, 3)});
+  };
   for (const Coupler coupler : {Coupler::kRigid, Coupler::kFlexible}) {
     const RpsupParameters parameters = linkage(coupler, 0.25e-3, 10.0);
-    const double ours = time_rpsup_evaluation(parameters);
-    const double mujoco = time_mujoco_evaluation(make_plain_linkage_in_contact(parameters));
-    const double simbody = time_simbody_evaluation(make_plain_linkage_in_contact(parameters));
-    table.add({coupler == Coupler::kRigid ? "rigid" : "flexible", digits(1e6 * ours, 3),
-               digits(1e6 * mujoco, 3), digits(1e6 * simbody, 3), digits(mujoco / ours, 3),
-               digits(simbody / ours, 3)});
+    add(coupler == Coupler::kRigid ? "rigid" : "flexible", time_rpsup_evaluation(parameters),
+        [&] { return make_plain_linkage_in_contact(parameters); });
+  }
+  for (const auto& [name, large] :
+       {std::pair{kTree, make_tree(kTreeBodies)}, std::pair{kChain, make_chain(kChainLoops)}}) {
+    const engine::BuiltLinkage built = engine::build_linkage(large.linkage);
+    add(name, time_evaluation(built.mechanism), [&] { return make_plain_linkage(built.mechanism, 0); });
   }
   table.print(std::cout);
 }
@@ -100,20 +163,29 @@ void print_ideal_jobs(int repeats) {
 }
 
 void print_mujoco_time() {
-  Rival rival = mujoco(linkage(Coupler::kRigid, 0.25e-3, 10.0), MujocoIntegrator::kRk4, "", 1.0, 1.0);
+  Competitor rival = mujoco(linkage(Coupler::kRigid, 0.25e-3, 10.0), MujocoIntegrator::kRk4, "", 1.0, 1.0);
   std::cout << digits(time_cpu([&rival] { (void)rival.run(); }), 6) << '\n';
 }
 
 int run(int repeats) {
   print_evaluations();
   print_ideal_jobs(repeats);
+  std::vector<Contest> contests;
+  for (const Method& method : our_methods()) {
+    contests.push_back(make_rigid_contest(method));
+    contests.push_back(make_flexible_contest(method));
+  }
   bool fair = true;
-  for (const Method& method : our_methods())
-    for (Contest contest : {make_rigid_contest(method), make_flexible_contest(method)}) {
-      contest.run(repeats);
-      contest.print(std::cout);
-      fair = fair && contest.is_fair();
-    }
+  const auto hold = [&fair](Contest& contest, int times) {
+    contest.run(times);
+    contest.print(std::cout);
+    fair = fair && contest.is_fair();
+  };
+  for (Contest& contest : contests) hold(contest, repeats);
+  constexpr int kOfShortRuns = 5;
+  for (Contest contest : {make_large_contest(kTree, make_tree(kTreeBodies), 2e-2, 1e-3),
+                          make_large_contest(kChain, make_chain(kChainLoops), 8e-4, 4e-5)})
+    hold(contest, kOfShortRuns * repeats);
   if (!fair) std::cerr << "bench_codes: a code's peak is off: what is compared is not the same\n";
   return fair ? EXIT_SUCCESS : EXIT_FAILURE;
 }

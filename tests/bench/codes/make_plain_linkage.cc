@@ -31,8 +31,9 @@ PlainCoordinate take_coordinate(const engine::Mechanism& mechanism, engine::Fram
 }
 
 /// A frame without mass is inside a joint and belongs to the body after it.
-PlainLinkage take_tree(const engine::Rpsup& rpsup, const Coordinates& at) {
-  const engine::Mechanism& mechanism = rpsup.mechanism;
+/// @param measured  coordinate
+PlainLinkage take_tree(const engine::Mechanism& mechanism, const Coordinates& at,
+                       engine::FrameIndex measured) {
   PlainLinkage plain;
   plain.gravity_W = mechanism.gravity_W;
   std::vector<int> body_of;
@@ -55,11 +56,20 @@ PlainLinkage take_tree(const engine::Rpsup& rpsup, const Coordinates& at) {
     plain.bodies.push_back(body);
     body = {};
   }
-  const engine::CutJoint& joint = mechanism.cut_joints.at(0);
-  plain.bearing = body_of[static_cast<std::size_t>(joint.bearing_frame)];
-  plain.journal = body_of[static_cast<std::size_t>(joint.journal_frame)];
-  plain.slider = body_of[static_cast<std::size_t>(rpsup.layout.slider)];
-  plain.forces = make_joint_forces(joint);
+  plain.measured = body_of[static_cast<std::size_t>(measured)];
+  for (const engine::CutJoint& joint : mechanism.cut_joints) {
+    const int bearing = body_of[static_cast<std::size_t>(joint.bearing_frame)];
+    const int journal = body_of[static_cast<std::size_t>(joint.journal_frame)];
+    if (joint.clearance) {
+      plain.bearing = bearing;
+      plain.journal = journal;
+      plain.forces = make_joint_forces(joint);
+    } else if (joint.kind == engine::CutKind::kSpherical) {
+      plain.loops.push_back({{bearing, journal}, {joint.bearing.p, joint.journal.p}});
+    } else {
+      throw std::invalid_argument("a loop is closed by another joint than a spherical one");
+    }
+  }
   return plain;
 }
 
@@ -67,14 +77,18 @@ PlainLinkage take_tree(const engine::Rpsup& rpsup, const Coordinates& at) {
 
 PlainLinkage make_plain_linkage(const engine::RpsupParameters& parameters) {
   const engine::Rpsup rpsup = engine::build_rpsup(parameters);
-  PlainLinkage plain = take_tree(rpsup, assemble(rpsup.mechanism));
+  PlainLinkage plain = take_tree(rpsup.mechanism, assemble(rpsup.mechanism), rpsup.layout.slider);
   plain.steady_from = parameters.run_up;
   return plain;
 }
 
 PlainLinkage make_plain_linkage_in_contact(const engine::RpsupParameters& parameters) {
   const engine::Rpsup rpsup = engine::build_rpsup(parameters);
-  return take_tree(rpsup, assemble_in_contact(parameters, rpsup));
+  return take_tree(rpsup.mechanism, assemble_in_contact(parameters, rpsup), rpsup.layout.slider);
+}
+
+PlainLinkage make_plain_linkage(const engine::Mechanism& mechanism, engine::FrameIndex measured) {
+  return take_tree(mechanism, assemble(mechanism), measured);
 }
 
 }  // namespace bench

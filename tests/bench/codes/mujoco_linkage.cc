@@ -12,8 +12,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include "tests/bench/codes/acceleration_peak.h"
 #include "tests/bench/codes/mujoco_model.h"
-#include "tests/bench/codes/slider_peak.h"
 #include "tests/bench/support/cpu_time.h"
 
 namespace bench {
@@ -46,11 +46,12 @@ class MujocoLinkage {
       : plain_(plain),
         integrator_(integrator),
         model_(compile(write_mjcf(plain, integrator == MujocoIntegrator::kEuler ? "Euler" : "RK4", step))),
-        data_(mj_makeData(model_.get())),
-        rates_(static_cast<std::size_t>(plain.forces->bristle_count())) {
+        data_(mj_makeData(model_.get())) {
     for (const PlainBody& body : plain.bodies)
       for (const PlainCoordinate& c : body.joint) take_coordinate(c);
-    slider_ = dof_of(plain.slider);
+    measured_ = dof_of(plain.measured);
+    if (!plain.forces) return;
+    rates_.resize(static_cast<std::size_t>(plain.forces->bristle_count()));
     bearing_ = model_->dof_bodyid[dof_of(plain.bearing)];
     journal_ = model_->dof_bodyid[dof_of(plain.journal)];
     active_ = this;
@@ -69,7 +70,7 @@ class MujocoLinkage {
 
   /// Evaluates at the start of step k; contacts that began or ended in the step before are noted in the midst
   /// of it.
-  SliderSample evaluate(long k) {
+  CoordinateSample evaluate(long k) {
     data_->time = static_cast<double>(k) * model_->opt.timestep;
     // exact again: their integration leaves rounding, or Euler's error
     for (const Driven& driven : driven_) {
@@ -79,7 +80,7 @@ class MujocoLinkage {
     }
     step_begins_ = true;
     evaluate_again();
-    return {data_->time, data_->qpos[slider_], data_->qvel[slider_], data_->qacc[slider_]};
+    return {data_->time, data_->qpos[measured_], data_->qvel[measured_], data_->qacc[measured_]};
   }
 
   void evaluate_again() { mj_forward(model_.get(), data_.get()); }
@@ -156,22 +157,20 @@ class MujocoLinkage {
   std::unique_ptr<mjData, FreeModel> data_;
   std::vector<double> rates_;    // of the bristles
   std::vector<Driven> driven_;
-  int slider_ = 0;               // degree of freedom
+  int measured_ = 0;               // degree of freedom
   int bearing_ = 0, journal_ = 0;  // MuJoCo's bodies
   bool step_begins_ = false;
 };
 
 }  // namespace
 
-CodeRun run_mujoco(const PlainLinkage& plain, MujocoIntegrator integrator, double step, double duration,
-                   const StepViewer& viewer) {
+CodeRun run_mujoco(const PlainLinkage& plain, MujocoIntegrator integrator, double step, double duration) {
   MujocoLinkage linkage(plain, integrator, step);
-  SliderPeak peak(plain.steady_from);
+  AccelerationPeak peak(plain.steady_from);
   const long steps = std::lround(duration / step);
   for (long k = 0; k <= steps; ++k) {
-    const SliderSample slider = linkage.evaluate(k);
-    peak.take(slider.t, slider.velocity, slider.acceleration);
-    if (viewer) viewer(slider);
+    const CoordinateSample measured = linkage.evaluate(k);
+    peak.take(measured.t, measured.velocity, measured.acceleration);
     if (k < steps) linkage.advance();
   }
   return {peak.magnitude(), steps * (integrator == MujocoIntegrator::kEuler ? 1 : 4) + 1};

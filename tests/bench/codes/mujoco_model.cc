@@ -20,11 +20,13 @@ class MjcfWriter {
 
   std::string write(const char* integrator, double step) {
     out_ << "<mujoco><compiler angle=\"radian\"/><option timestep=\"" << step << "\" integrator=\""
-         << integrator << "\" gravity=\"" << vector_text(linkage_.gravity_W)
-         << "\"><flag constraint=\"disable\"/></option><worldbody>";
+         << integrator << "\" gravity=\"" << vector_text(linkage_.gravity_W) << "\">"
+         << (linkage_.loops.empty() ? "<flag constraint=\"disable\"/>" : "") << "</option><worldbody>";
     add_children(-1);
-    out_ << "</worldbody><actuator>";
-    for (int i = 0; i < linkage_.forces->bristle_count(); ++i)
+    out_ << "</worldbody><equality>";
+    for (const PlainLoop& loop : linkage_.loops) add_loop(loop, step);
+    out_ << "</equality><actuator>";
+    for (int i = 0; linkage_.forces && i < linkage_.forces->bristle_count(); ++i)
       out_ << "<general joint=\"" << linkage_.bodies[0].joint[0].name
            << "\" dyntype=\"user\" gainprm=\"0\"/>";
     out_ << "</actuator></mujoco>";
@@ -39,11 +41,18 @@ class MjcfWriter {
 
   void add_body(int i) {
     const PlainBody& body = linkage_.bodies[static_cast<std::size_t>(i)];
-    out_ << "<body pos=\"" << vector_text(body.p_PJ) << "\">";
+    out_ << "<body name=\"" << i << "\" pos=\"" << vector_text(body.p_PJ) << "\">";
     for (const PlainCoordinate& c : body.joint) add_joint(c);
     add_inertia(body);
     add_children(i);
     out_ << "</body>";
+  }
+
+  /// As stiff as MuJoCo's soft constraints get at this step.
+  void add_loop(const PlainLoop& loop, double step) {
+    out_ << "<connect body1=\"" << loop.bodies[0] << "\" body2=\"" << loop.bodies[1] << "\" anchor=\""
+         << vector_text(loop.points[0]) << "\" solref=\"" << 2.0 * step
+         << " 1\" solimp=\"0.9999 0.9999 0.001\"/>";
   }
 
   void add_joint(const PlainCoordinate& c) {

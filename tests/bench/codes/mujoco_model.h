@@ -7,8 +7,8 @@
 
 namespace bench {
 
-/// The linkage in MuJoCo's XML: bodies, joints, springs and dampers; without what acts between bearing and
-/// journal.
+/// The linkage in MuJoCo's XML: bodies, joints, loops, springs and dampers; without what acts between bearing
+/// and journal. Loops are closed while all coordinates are zero.
 ///
 /// Joints carry the names of the coordinates. Driven ones have an armature that nothing in the mechanism can
 /// move, so that a force of armature times the wanted acceleration drives them. Actuators without force hold

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/bench/codes/acceleration_peak.h"
 #include "tests/bench/codes/simbody_model.h"
-#include "tests/bench/codes/slider_peak.h"
 #include "tests/bench/support/cpu_time.h"
 
 namespace bench {
@@ -83,11 +83,13 @@ class SimbodyLinkage {
  public:
   explicit SimbodyLinkage(const PlainLinkage& plain)
       : model_(plain),
-        contact_(new ContactForce(model_.forces, *plain.forces, model_.body(plain.bearing),
-                                  model_.body(plain.journal))),
-        slider_(model_.body(plain.slider)),
-        bristles_(static_cast<std::size_t>(plain.forces->bristle_count())) {
+        measured_(model_.body(plain.measured)),
+        which_(static_cast<int>(plain.bodies[static_cast<std::size_t>(plain.measured)].joint.size()) - 1) {
+    if (!plain.forces) return;
+    contact_ = new ContactForce(model_.forces, *plain.forces, model_.body(plain.bearing),
+                                model_.body(plain.journal));
     SimTK::Force::Custom(model_.forces, contact_);  // owns it
+    bristles_.resize(static_cast<std::size_t>(plain.forces->bristle_count()));
   }
 
   [[nodiscard]] SimTK::State start() {
@@ -96,13 +98,14 @@ class SimbodyLinkage {
     return state;
   }
   [[nodiscard]] SimTK::MultibodySystem& system() { return model_.system; }
-  [[nodiscard]] SliderSample sample(const SimTK::State& state) const {
+  [[nodiscard]] CoordinateSample sample(const SimTK::State& state) const {
     model_.system.realize(state, SimTK::Stage::Acceleration);
-    return {state.getTime(), slider_.getOneQ(state, 0), slider_.getOneU(state, 0),
-            slider_.getOneUDot(state, 0)};
+    return {state.getTime(), measured_.getOneQ(state, which_), measured_.getOneU(state, which_),
+            measured_.getOneUDot(state, which_)};
   }
   /// Where contacts changed in the step, the integrator evaluates its end again.
   void end_step(SimTK::Integrator& integrator) {
+    if (!contact_) return;
     const SimTK::State& state = integrator.getState();
     std::copy_n(contact_->bristles(state), bristles_.size(), bristles_.begin());
     if (!contact_->end_step(state, bristles_.data())) return;
@@ -112,28 +115,28 @@ class SimbodyLinkage {
 
  private:
   SimbodyModel model_;
-  ContactForce* contact_;
-  SimTK::MobilizedBody slider_;
+  ContactForce* contact_ = nullptr;
+  SimTK::MobilizedBody measured_;
+  int which_;  // of its coordinates
   std::vector<double> bristles_;
 };
 
 }  // namespace
 
-CodeRun run_simbody(const PlainLinkage& plain, double accuracy, double duration, const StepViewer& viewer) {
+CodeRun run_simbody(const PlainLinkage& plain, double accuracy, double duration) {
   SimbodyLinkage linkage(plain);
   SimTK::RungeKuttaMersonIntegrator integrator(linkage.system());
   integrator.setAccuracy(accuracy);
   integrator.setReturnEveryInternalStep(true);
   integrator.initialize(linkage.start());
-  SliderPeak peak(plain.steady_from);
+  AccelerationPeak peak(plain.steady_from);
   double t = -1.0;
   while (t < duration) {
     integrator.stepTo(duration);
     if (integrator.getTime() <= t) continue;  // it reports the start of an interval too
-    const SliderSample slider = linkage.sample(integrator.getState());
-    t = slider.t;
-    peak.take(t, slider.velocity, slider.acceleration);
-    if (viewer) viewer(slider);
+    const CoordinateSample measured = linkage.sample(integrator.getState());
+    t = measured.t;
+    peak.take(t, measured.velocity, measured.acceleration);
     linkage.end_step(integrator);
   }
   constexpr long kStages = 5;

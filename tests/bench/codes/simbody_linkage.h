@@ -10,8 +10,7 @@ namespace bench {
 /// contacts is used up: a linkage runs once.
 /// @param accuracy  Simbody's measure of relative accuracy, [1]
 /// @param duration  [s]
-[[nodiscard]] CodeRun run_simbody(const PlainLinkage& plain, double accuracy, double duration,
-                                  const StepViewer& viewer = {});
+[[nodiscard]] CodeRun run_simbody(const PlainLinkage& plain, double accuracy, double duration);
 
 /// Processor time of realizing Simbody's accelerations anew with the linkage as it starts, [s].
 [[nodiscard]] double time_simbody_evaluation(const PlainLinkage& plain);

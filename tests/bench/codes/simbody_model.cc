@@ -24,6 +24,11 @@ SimTK::MobilizedBody make_joint(const PlainBody& plain, SimTK::MobilizedBody& pa
     const Rotation turned(UnitVec3(SimTK::ZAxis), SimTK::XAxis, Vec3(0, 1, 0), SimTK::YAxis);
     return SimTK::MobilizedBody::Gimbal(parent, Transform(turned, p), body, Transform(turned, Vec3(0)));
   }
+  if (plain.joint.size() == 2) {
+    const Rotation turned(UnitVec3(axis), SimTK::XAxis, UnitVec3(SimTK::CoordinateAxis(plain.joint[1].axis)),
+                          SimTK::YAxis);
+    return SimTK::MobilizedBody::Universal(parent, Transform(turned, p), body, Transform(turned, Vec3(0)));
+  }
   // a Slider's own axis, and a Pin's
   const Rotation turned(UnitVec3(axis), SimTK::CoordinateAxis(plain.joint[0].slides ? 0 : 2));
   if (plain.joint[0].slides)
@@ -66,6 +71,9 @@ SimbodyModel::SimbodyModel(const PlainLinkage& plain) : matter(system), forces(s
     for (std::size_t k = 0; k < body.joint.size(); ++k)
       add_forces(body.joint[k], bodies_.back(), static_cast<int>(k));
   }
+  for (const PlainLoop& loop : plain.loops)
+    SimTK::Constraint::Ball(bodies_[static_cast<std::size_t>(loop.bodies[0])], to_simbody(loop.points[0]),
+                            bodies_[static_cast<std::size_t>(loop.bodies[1])], to_simbody(loop.points[1]));
 }
 
 void SimbodyModel::add_forces(const PlainCoordinate& c, SimTK::MobilizedBody& body, int which) {

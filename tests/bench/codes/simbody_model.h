@@ -9,11 +9,12 @@
 
 namespace bench {
 
-/// The linkage's tree in Simbody: bodies, joints, gravity, springs and dampers, drives; without what acts
+/// The linkage in Simbody: bodies, joints, loops, gravity, springs and dampers, drives; without what acts
 /// between bearing and journal.
 ///
-/// Three rotations about z, y, x are a Gimbal; its frames are turned so that it turns about x, y, z of its
-/// own, the last one backwards.
+/// Two rotations are a Universal, whose frames are turned so that it turns about x and y of its own. Three
+/// rotations about z, y, x are a Gimbal; its frames are turned so that it turns about x, y, z of its own, the
+/// last one backwards.
 class SimbodyModel {
  public:
   explicit SimbodyModel(const PlainLinkage& plain);

@@ -7,11 +7,11 @@
 
 namespace bench {
 
-/// Largest slider acceleration of the steady window from the inside of steps, given at their ends: the same
-/// measure for every code.
-class SliderPeak {
+/// Largest acceleration of the steady window from the inside of steps, given at their ends: the same measure
+/// for every code.
+class AccelerationPeak {
  public:
-  explicit SliderPeak(double from) : from_(from) {}
+  explicit AccelerationPeak(double from) : from_(from) {}
 
   void take(double t, double velocity, double acceleration) {
     if (t > from_ && started_) {
