@@ -49,8 +49,8 @@ void check_body(const LinkageBody& body) {
           "the other two");
 }
 
-/// Gives the springs of no given free length the one with which they are unloaded. What pulls along the line
-/// between its ends must have one.
+/// Gives the springs of no given free length the one with which they are unloaded. A spring or damper that
+/// pulls along the line between its ends must have such a line.
 void settle_springs(const Linkage& linkage, BuiltLinkage& built, const Evaluation& assembled) {
   constexpr double kMeeting = 1e-9;  // [m]
   for (std::size_t k = 0; k < linkage.springs.size(); ++k) {
@@ -104,7 +104,7 @@ Eigen::MatrixXd calc_mass_matrix(const Mechanism& m, const Evaluation& assembled
   return M;
 }
 
-/// Whether the mechanism has joints that close loops without clearance.
+/// @returns whether the mechanism has joints that close loops without clearance
 bool closes_loops(const Mechanism& mechanism) {
   return std::ranges::any_of(mechanism.cut_joints, [](const CutJoint& joint) { return !joint.clearance; });
 }
@@ -171,7 +171,7 @@ void check_mass_matrix(const Eigen::MatrixXd& M) {
 
 void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evaluation& assembled,
                   const std::vector<FrameIndex>& free) {
-  constexpr std::size_t kMany = 60;  // whose matrix would take long
+  constexpr std::size_t kMany = 60;  // coordinates: the matrix of more takes long
   if (free.empty()) return;
   const bool alone = free.size() > kMany;
   Mechanism mechanism = built.mechanism;
@@ -224,14 +224,15 @@ std::string widest_gap(const Linkage& linkage, const BuiltLinkage& built, const 
   return widest.empty() ? "joints" : "joints." + widest;
 }
 
-/// Whether a joint, by its field, has clearance and carries its second body.
+/// @returns whether a joint, by its field, has clearance and carries its second body
 bool is_loose(const Linkage& linkage, const std::string& field) {
   return std::ranges::any_of(linkage.joints, [&](const LinkageJoint& joint) {
     return "joints." + joint.name == field && joint.clearance && !joint.cut;
   });
 }
 
-/// Why loops that are left with a gap do not close. @param loose  whether the joint there is
+/// Fault of loops that are left with a gap, as the rest of a sentence.
+/// @param loose  whether is_loose() holds for the joint with the gap
 std::string describe_open_loop(const LoopClosure& closure, bool loose) {
   if (!closure.rates_fit())
     return "would be torn apart by the start rates given: they and the drives contradict each other";

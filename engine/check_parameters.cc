@@ -322,7 +322,7 @@ void check_parameters(const RpsupParameters& parameters, const RunOptions& optio
   check_drives(parameters);
   check_joint(parameters);
   check_options(options);
-  // Where actuators take the linkage only the run can tell.
+  // Only the run shows the motion that actuators cause.
   const bool is_given = !parameters.crank_actuator && !parameters.rod_actuator;
   const double known = is_given ? options.duration : kStart;
   check_reach(parameters, known);

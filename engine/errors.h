@@ -16,7 +16,7 @@ class InvalidInput : public std::runtime_error {
   [[nodiscard]] const std::string& field() const {
     return field_;
   }  ///< path of the field, e.g. "links.1,3.inertia"
-  [[nodiscard]] const std::string& detail() const { return detail_; }  ///< what is wrong and what is allowed
+  [[nodiscard]] const std::string& detail() const { return detail_; }  ///< fault, and the allowed values
 
  private:
   std::string field_;

@@ -13,14 +13,14 @@
 #include "jobs/cluster/slurm_executor.h"
 #include "jobs/fits/fit_study.h"
 #include "jobs/local/local_pool.h"
+#include "jobs/optimisation/optimisation_study.h"
 #include "jobs/requests/expand.h"
 #include "jobs/requests/extend_request.h"
 #include "jobs/requests/sweep_description.h"
 #include "jobs/requests/sweep_request.h"
 #include "jobs/results/page.h"
 #include "jobs/results/plan_estimate.h"
-#include "jobs/optimisation/optimisation_study.h"
-#include "jobs/search/limit_study.h"
+#include "jobs/search/search_study.h"
 #include "jobs/store/store.h"
 #include "jobs/studies/study_runner.h"
 #include "jobs/trajectories/trajectory_codec.h"
@@ -48,7 +48,7 @@ std::array<std::unique_ptr<StudyRunner>, kStudyKinds.size()> make_runners(Store&
                            .max_queued_jobs = options.max_queued_jobs,
                            .threads = options.threads};
   const auto find_measurement = [&store](const std::string& id) { return store.measurements.find(id); };
-  return {std::make_unique<StudyRunner>(store, limits, make_limit_study()),
+  return {std::make_unique<StudyRunner>(store, limits, make_search_study()),
           std::make_unique<StudyRunner>(store, limits, make_wear_study(store.reader)),
           std::make_unique<StudyRunner>(store, limits, make_optimisation_study()),
           std::make_unique<StudyRunner>(store, limits, make_fit_study(store.reader, find_measurement))};
@@ -142,8 +142,8 @@ json Service::estimate_sweep(const nlohmann::ordered_json& request) const {
   return estimate;
 }
 
-/// Whether the queue or the store might refuse a sweep: rows of the store take less than four times their
-/// parameters.
+/// @returns whether the queue or the store might refuse a sweep: rows of the store take less than four times
+/// their parameters
 bool Service::may_have_no_room(const SweepPlan& plan) const {
   std::size_t bytes = 1U << 20U;
   for (const PlannedJob& job : plan.jobs) bytes += 4 * (job.parameters.size() + job.swept.size());
@@ -184,9 +184,9 @@ std::optional<json> Service::extend_sweep(const std::string& id, const nlohmann:
   for (bool done = false; !done;) {  // again, if another extension came in between
     const auto sweep = store_->reader.find_sweep(id);
     if (!sweep) return std::nullopt;
-    if (sweep->study_id.value_or("").starts_with(kOptimisationPrefix))
+    if (sweep->study_id && !sweep->study_id->starts_with(kSearchPrefix))
       throw WrongState("the sweep holds the jobs of " + name_of_study(*sweep->study_id) +
-                       ", which adds its cases by itself");
+                       ", which adds its jobs by itself");
     const Extension extension =
         plan_extension(nlohmann::ordered_json::parse(sweep->request), addition, options_.max_sweep_jobs);
     done = extension.jobs.empty();

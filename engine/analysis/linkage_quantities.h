@@ -89,7 +89,7 @@ class LinkageQuantities {
   void add_extremes(const std::string& stem, const std::string& unit, const Reading& read,
                     Channel::Kind kind, std::size_t index);
 
-  /// How a metric follows from what was measured.
+  /// Value of a metric, from the measured quantities of a run.
   using Result = std::function<double(const RunMetrics&, const RunOutcome&)>;
   void add_metric(QuantityInfo info, Result result);
 

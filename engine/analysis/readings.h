@@ -10,7 +10,7 @@
 
 namespace engine {
 
-/// What a run does not have.
+/// Value of a quantity that a run does not have.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// A number read from the mechanism at one instant.

@@ -12,12 +12,12 @@
 
 namespace engine {
 
-/// What is sampled of an RPSUP linkage. Readings refer to all arguments.
+/// Sampled channels of an RPSUP linkage. Their readings refer to all arguments.
 /// @param sliding_work  follows the run
 [[nodiscard]] std::vector<Channel> rpsup_channels(const RpsupParameters& parameters, const Rpsup& rpsup,
                                                   const SlidingWork& sliding_work);
 
-/// What is measured of one.
+/// Quantities of an RPSUP linkage that RunMetrics measures.
 [[nodiscard]] Measured rpsup_measured(const RpsupParameters& parameters, const Rpsup& rpsup);
 
 /// The metrics of a run, in the order of metric_table().

@@ -14,7 +14,7 @@
 
 namespace engine {
 
-/// What of a run is measured.
+/// Quantities of a run that RunMetrics measures.
 struct Measured {
   std::vector<FrameIndex> accelerations;  ///< coordinates whose acceleration is
   std::vector<FrameIndex> velocities;     ///< coordinates whose velocity is, in the steady window
@@ -24,8 +24,8 @@ struct Measured {
     std::size_t joint;                    ///< cut joint with clearance
     bool of_faces = false;
   };
-  std::vector<Contact> contacts;          ///< whose times count
-  double steady_from = 0.0;               ///< where the steady window begins, [s]
+  std::vector<Contact> contacts;  ///< of which the times count
+  double steady_from = 0.0;       ///< start of the steady window, [s]
   Preparation prepare = {};
 };
 
@@ -35,7 +35,7 @@ class RunMetrics {
   explicit RunMetrics(Measured measured);
 
   void take_step(const Evaluation& start, const Evaluation& end);
-  /// Whether the last step may hold a larger load than its ends show: its middle should be taken.
+  /// @returns whether the last step may hold a larger load than its ends show: its middle should be taken
   [[nodiscard]] bool wants_middle() const { return wants_middle_; }
   void take_middle(const Evaluation& middle);
   void take_onsets(int rings, int faces) {

@@ -10,7 +10,7 @@
 
 namespace engine {
 
-/// What a run leaves behind.
+/// Result of a run.
 struct RunResult {
   RunStatus status = RunStatus::kSucceeded;
   double t_end = 0.0;           ///< time reached, [s]

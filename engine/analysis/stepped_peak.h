@@ -48,8 +48,8 @@ class SteppedPeak {
   /// Largest distance beyond the step, as a fraction of the step, of a guess of an extreme inside.
   static constexpr double kMargin = 0.5;
 
-  /// Whether the parabola through the end of this step and the ends of the one before has its extreme about
-  /// here.
+  /// @returns whether the parabola through the end of this step and the ends of the one before has its
+  /// extreme about here
   [[nodiscard]] bool may_have_extremum(double end, double slope, double dt) const {
     const double sign = end < 0.0 ? -1.0 : 1.0;
     const double bend = sign * (slope - slope_) / (dt + dt_);  // half the second derivative

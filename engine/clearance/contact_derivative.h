@@ -14,7 +14,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// a number, or a pack
 template <typename T>
 struct JournalTangent_b {
-  Vec3<T> rotation, p;  ///< of {j}, [rad]; of the journal's centre, [m]
+  Vec3<T> rotation, offset;  ///< of {j}, [rad]; of the journal's centre, [m]
   Vec3<T> v, w;         ///< of the centre's velocity, [m/s], and of the angular velocity, [rad/s]
 };
 
@@ -36,12 +36,12 @@ struct ActingBristles {
 /// Block  eight numbers side by side
 template <typename Block>
 struct ContactRowOf {
-  Block by_position;  ///< rotation, p
+  Block by_position;  ///< rotation, offset
   Block by_rate;      ///< v, w, and the contact point's own two bristles
 
   template <typename T>
   [[nodiscard]] RPSUP_INLINE T apply(const JournalTangent_b<T>& journal) const {
-    return dot3(by_position, 0, journal.rotation) + dot3(by_position, 3, journal.p) +
+    return dot3(by_position, 0, journal.rotation) + dot3(by_position, 3, journal.offset) +
            dot3(by_rate, 0, journal.v) + dot3(by_rate, 3, journal.w);
   }
   template <typename T>
@@ -51,8 +51,8 @@ struct ContactRowOf {
 };
 using ContactRow = ContactRowOf<Lanes>;
 
-/// Those of all that a joint's contacts do together: force and moment on the journal, about its centre, in
-/// {b}, and powers.
+/// Rows of the whole load of a joint's contacts: force and moment on the journal, about its centre, in {b},
+/// and powers.
 template <typename Block>
 struct ContactRowsOf {
   static constexpr int kImpactPower = 6, kFrictionPower = 7, kCount = 8;
@@ -102,7 +102,7 @@ class ContactDerivative {
     return rate_rows_[static_cast<std::size_t>(bristle)].by_rate[kBristleLane + by % 2];
   }
 
-  /// Whether the load has any derivative but zero.
+  /// @returns whether the load has any derivative but zero
   [[nodiscard]] RPSUP_INLINE bool acts() const {
     for (const ContactRow& row : rows_.of)
       for (int lane = 0; lane < Lanes::kCount; ++lane)

@@ -55,7 +55,7 @@ struct JointLoad {
 template <typename V>
 struct NormalLaw {
   V total;                           ///< f_n, [N], >= 0
-  V loss_power;                      ///< what the contact takes from the motion for good, [W]
+  V loss_power;                      ///< power that the contact takes from the motion for good, [W]
 };
 
 /// The onset rate that serves in the normal law: the latched one (> 0), or in a contact that has just begun

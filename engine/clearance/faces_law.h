@@ -7,8 +7,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// How far the points (x, y) of a face are beyond the shoulder, and how fast: delta = delta_0 + x delta_x + y
-/// delta_y, the rate likewise.
+/// Penetration of the points (x, y) of a face into the shoulder: delta = delta_0 + x delta_x + y delta_y, the
+/// rate likewise.
 template <typename P, typename V>
 struct FaceMotion {
   P delta_0, delta_x, delta_y;  ///< [m], [1]
@@ -34,7 +34,7 @@ template <typename P, typename V>
           side * axial_velocity(R.y)};
 }
 
-/// What the shoulder does to a face.
+/// Load of a shoulder on a face.
 template <typename V>
 struct FaceLoad {
   V force{}, x_force{}, y_force{};  ///< sums over the points of f, x f, y f

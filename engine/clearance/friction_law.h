@@ -39,13 +39,13 @@ template <typename V>
   return calc_stribeck_at(p, ratio * ratio);
 }
 
-/// How fast a bristle that slides lets go: sigma_0 |v| / g(|v|), [1/s].
+/// Rate at which a sliding bristle lets go: sigma_0 |v| / g(|v|), [1/s].
 template <typename V>
 [[nodiscard]] RPSUP_INLINE V calc_bristle_decay(const FrictionParameters& p, const V& speed) {
   return p.sigma_0 * speed / calc_stribeck_curve(p, speed);
 }
 
-/// What a law gives for one component of the sliding velocity.
+/// Friction and bristle rate for one component of the sliding velocity.
 template <typename V>
 struct BristleLaw {
   /// Of the normal force, sigma_0 z + sigma_1 zd + sigma_2 v with bristles, [1]; it acts against v.
@@ -60,13 +60,13 @@ template <typename V>
   return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
 }
 
-/// What a law gives for both components.
+/// Friction and bristle rates for both components.
 template <typename V>
 struct FrictionForce {
   BristleLaw<V> along_t, along_z;
 };
 
-/// Which part of its decay an elasto-plastic bristle has: none below its break-away and on its way back, all
+/// Part of its decay that an elasto-plastic bristle has: none below its break-away and on its way back, all
 /// of it at its steady deflection, half a sine between. Source: Dupont, Hayward, Armstrong, Altpeter, Single
 /// state elastoplastic friction models (2002), Eq. (10).
 /// @param ratio  deflection over the steady one

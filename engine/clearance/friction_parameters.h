@@ -13,7 +13,7 @@ enum class FrictionLaw {
   kAmbrosio,      ///< Ambrosio (2003): Coulomb above a velocity, nothing below another, linear between
 };
 
-/// Whether a law remembers the deflection of a bristle.
+/// @returns whether a law remembers the deflection of a bristle
 [[nodiscard]] constexpr bool has_bristles(FrictionLaw law) {
   return law == FrictionLaw::kLuGre || law == FrictionLaw::kDahl || law == FrictionLaw::kElastoPlastic;
 }

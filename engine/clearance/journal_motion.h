@@ -42,7 +42,7 @@ struct ContactLoad {
           vector(journal.p_bj), vector(journal.v), vector(journal.w)};
 }
 
-/// What the contact laws give, as observers take it.
+/// Load by the contact laws, as observers take it.
 [[nodiscard]] inline ContactLoad to_contact_load(const JointLoad<double>& load) {
   const auto vector = [](const Vec3<double>& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
   return {.force = vector(load.force),

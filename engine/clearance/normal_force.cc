@@ -8,7 +8,7 @@ namespace engine {
 
 namespace {
 
-/// Where f is zero in [low, high], to the resolution of s; f(low) and f(high) have opposite signs.
+/// Zero of f in [low, high], to the resolution of s; f(low) and f(high) have opposite signs.
 /// Newton's iteration from the middle, kept in a bracket of opposite signs: where it would leave the bracket
 /// or does not halve its last step, the bracket is bisected.
 template <typename Function, typename Slope>

@@ -9,7 +9,7 @@ struct Penetration {
   double rate = 0.0;   ///< [m/s]
 };
 
-/// What became of a joint's contacts in a step.
+/// Changes of a joint's contacts in a step.
 struct ContactChange {
   bool any = false;     ///< some contact began or ended
   bool abrupt =
@@ -54,9 +54,9 @@ class PenetrationCubic {
 
   [[nodiscard]] double delta(double s) const { return ((a_ * s + b_) * s + c_) * s + d_; }
   [[nodiscard]] double rate(double s) const { return ((3.0 * a_ * s + 2.0 * b_) * s + c_) / dt_; }
-  /// Where it crosses zero in [low, high], given that the signs differ there.
+  /// Zero s of delta in [low, high], at whose ends the signs differ.
   [[nodiscard]] double find_root(double low, double high) const;
-  /// Where the extreme lies that is between two ends whose rates have opposite signs.
+  /// Place s of the extreme of delta between two ends whose rates have opposite signs.
   [[nodiscard]] double find_extreme() const;
 
  private:

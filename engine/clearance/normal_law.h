@@ -17,8 +17,8 @@ enum class NormalForceLaw {
   kKelvinVoigt,         ///< f_n = f_e + d rate, cut at 0: no restitution coefficient
 };
 
-/// Whether a law has a meaning at k_r = 0. What a body keeps of its speed there is not 0: 0.06 by Carvalho
-/// and Martins, 0.49 where chi is 3/2, 0.66 where it is 3/4.
+/// @returns whether a law has a meaning at k_r = 0. The part of its speed that a body keeps there is not 0:
+/// 0.06 by Carvalho and Martins, 0.49 where chi is 3/2, 0.66 where it is 3/4.
 [[nodiscard]] constexpr bool has_zero_restitution(NormalForceLaw law) {
   return law != NormalForceLaw::kGonthier && law != NormalForceLaw::kFlores && law != NormalForceLaw::kHuGuo;
 }

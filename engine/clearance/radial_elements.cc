@@ -76,7 +76,7 @@ ContactChange RadialElements::advance(const JournalMotion& start, const JournalM
     bool was_on = false;
     bool is_on = false;
     int k = element_of(i, 0);
-    int from_low = wrap(k - arc.low);  // how far k is into the arc
+    int from_low = wrap(k - arc.low);  // distance of k from the arc's low end
     for (int slot = 0; slot < window_; ++slot) {
       OnsetLatch& onset = latch(i, k);
       double* bristle = bristles + 2 * (i * window_ + slot);

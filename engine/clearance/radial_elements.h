@@ -43,7 +43,7 @@ class RadialElements {
     return slot < window_ ? 2 * (ring * window_ + slot) : -1;
   }
 
-  /// Whether the numbers of `count` elements from k on are contiguous, those of their bristles, too.
+  /// @returns whether the numbers of `count` elements from k on are contiguous, those of their bristles, too
   [[nodiscard]] bool are_side_by_side(int ring, int k, int count) const {
     const int slot = wrap(k - first_.data()[ring]);
     return k + count <= joint_.n_ce && slot + count <= window_;

@@ -39,7 +39,7 @@ class WornGap {
            inverse_cosine_[static_cast<std::size_t>(std::abs(away))];
   }
 
-  /// Where it touches first, in angles away from theta.
+  /// Place at which the journal touches first, in angles away from theta.
   [[nodiscard]] int find_nearest(int theta) const {
     int nearest = 0;
     double least = calc_limit(theta, 0);

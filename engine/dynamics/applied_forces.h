@@ -30,7 +30,7 @@ class AppliedForces {
   void read_out(const Eigen::VectorXd& y, const StateLayout& layout, Evaluation& at) const;
 
  private:
-  /// Where the motion of a coordinate is.
+  /// Source of a coordinate's motion: the free coordinates or a drive.
   struct Source {
     int free = -1;   ///< number among the free coordinates; -1: it is driven, or there is none
     int drive = -1;  ///< the drive that gives it

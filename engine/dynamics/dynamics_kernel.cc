@@ -30,7 +30,7 @@ struct InstructionSet {
   decltype(&baseline::make_compiled_kernel) make;
 };
 
-/// What this program was compiled for (RPSUP_INSTRUCTION_SETS), the best one last.
+/// Instruction sets for which this program was compiled (RPSUP_INSTRUCTION_SETS), the best one last.
 constexpr InstructionSet kCompiled[] = {
 #ifdef RPSUP_HAS_baseline
     {"baseline", [] { return true; }, baseline::make_compiled_kernel},

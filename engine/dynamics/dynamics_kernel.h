@@ -49,7 +49,7 @@ class DynamicsKernel {
   /// Reads out the results of the last evaluate_and_keep(), for observers.
   virtual void read_out(Evaluation& at) const = 0;
 
-  /// Whether NewtonSolver::kRecursive can solve this mechanism's Newton systems.
+  /// @returns whether NewtonSolver::kRecursive can solve this mechanism's Newton systems
   [[nodiscard]] virtual bool can_solve_recursively() const = 0;
 
   /// Linearises at the y and drives of the last evaluate_and_keep(), which must have returned kOk: computes

@@ -37,7 +37,7 @@ JournalMotion calc_journal_pose(const CutJoint& joint, const std::vector<FrameMo
   return journal;
 }
 
-/// Whether a journal is in its bore and between its shoulders; it may rest there, pressed in a little.
+/// @returns whether a journal is in its bore and between its shoulders, or rests there, pressed in a little
 bool is_in_bore(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
   constexpr double kPressed = 0.1;  // of the radial clearance
   const JournalMotion journal = calc_journal_pose(joint, frames);
@@ -74,7 +74,7 @@ LoopClosure::LoopClosure(const Mechanism& mechanism)
   find_active_rows();
 }
 
-/// Lists rigid rows and their blocks. @param joints  with the clearances that the ideal mechanism has not
+/// Lists rigid rows and their blocks. @param joints  with the clearances that ideal_ is without
 void LoopClosure::list_rigid_rows(const std::vector<CutJoint>& joints) {
   Eigen::Index row = 0;
   for (const CutJoint& joint : joints) {
@@ -151,8 +151,12 @@ bool LoopClosure::assemble(double t, Evaluation& at) {
   if (close_by_rotations(t, at) && turned_over_ < 0) return assemble_rates(at);
   at = found;
   calc_positions(at);
-  turned_over_ = closes ? constraints_.find_turned_over(at.frames) : -1;
-  return !closes && close_rigid_joints(at) && assemble_rates(at);
+  if (closes) {
+    turned_over_ = constraints_.find_turned_over(at.frames);
+    return false;
+  }
+  turned_over_ = -1;
+  return close_rigid_joints(at) && assemble_rates(at);
 }
 
 void LoopClosure::set_guess(double t, Evaluation& at) const {
@@ -200,7 +204,7 @@ bool LoopClosure::close_rigid_joints(Evaluation& at) {
          });
 }
 
-/// Whether the rigid joints are open by no more than what starts with seven digits leave.
+/// @returns whether the rigid joints are open by no more than what starts with seven digits leave
 bool LoopClosure::is_closed_but_for_rounding() const {
   return std::ranges::all_of(rigid_rows_, [&](Eigen::Index row) {
     const bool is_position = std::ranges::binary_search(position_rows_, row);
@@ -240,8 +244,8 @@ bool LoopClosure::assemble_rates(Evaluation& at) {
   return rates_fit_;
 }
 
-/// Minimum-norm solution for the rates that are not given. Given ones move as well by what their last digits
-/// leave. False if they violate the constraint rows.
+/// Minimum-norm solution for the rates that are not given. Given ones are corrected too where only their
+/// rounding violates the rows. False if more than their rounding does.
 bool LoopClosure::find_rates(const std::vector<Eigen::Index>& rows, Evaluation& at) {
   constexpr double kFits = 1e-9;  // of the residual that the given rates alone leave, [m/s] and [1/s]
   const std::vector<FrameIndex> open = find_coordinates(ideal_, is_rate_found_by_loops);
@@ -272,7 +276,7 @@ Eigen::MatrixXd LoopClosure::calc_columns(const std::vector<FrameIndex>& coordin
   return columns;
 }
 
-/// The same to find ranks of, without what rounding leaves of rows that hold by themselves.
+/// calc_columns() for ranks: entries below rounding are zero.
 Eigen::MatrixXd LoopClosure::calc_columns_above_noise(const std::vector<FrameIndex>& coordinates) const {
   constexpr double kNoise = 1e-13;  // of entries between axes; of those of positions, of the size
   Eigen::MatrixXd columns = calc_columns(coordinates);

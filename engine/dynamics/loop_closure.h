@@ -25,16 +25,17 @@ class LoopClosure {
   /// Part of the motion that the drives determine.
   enum class Determinacy {
     kFree,           ///< coordinates or springs are left to dynamics, or constraints are redundant
-    kDetermined,     ///< as many constraint rows that move as unknown coordinates, and no spring
+    kDetermined,     ///< as many active rows as unknown coordinates, and no spring, damper or load
     kSingularStart,  ///< the drives determine the motion elsewhere, but start in a change point
   };
   [[nodiscard]] Determinacy find_determinacy(const Evaluation& assembled);
 
-  /// Start of a mechanism that the drives do not determine, by its rigid joints.
+  /// Start of a mechanism that the drives do not determine, by its rigid joints: the cut joints without
+  /// clearance.
   enum class Start {
     kRegular,
     kContradiction,  ///< no accelerations satisfy constraints and drives
-    kChangePoint,    ///< the same, or rest, where constraints that bind elsewhere do not
+    kChangePoint,    ///< no accelerations, or rest, where rows do not bind that bind near by
     kImmovable,      ///< rest where constraints leave velocities, but no motion: a chain stretched taut, say
   };
   [[nodiscard]] Start find_start(const Evaluation& assembled);
@@ -128,7 +129,7 @@ class LoopClosure {
   [[nodiscard]] Eigen::VectorXd minimum_norm_correction(const Eigen::VectorXd& gaps) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns(const std::vector<FrameIndex>& coordinates) const;
   [[nodiscard]] Eigen::MatrixXd calc_columns_above_noise(const std::vector<FrameIndex>& coordinates) const;
-  void predict(double t, Evaluation& at) const;
+  void start_from_taylor_series(double t, Evaluation& at) const;
   void set_drives(double t, Evaluation& at) const;
   void calc_positions(Evaluation& at, AxisResiduals axes = AxisResiduals::kProducts);
   void calc_rates(Evaluation& at);
@@ -153,7 +154,7 @@ class LoopClosure {
   std::vector<Eigen::Index> blocks_;  ///< of each rigid row: rows of one joint's position, or of its axes
   std::vector<Eigen::Index> active_rows_;  ///< constraint rows that some coordinate moves
   std::vector<Eigen::Index> position_rows_;  ///< constraint rows that are distances
-  double reach_ = 0.0;  ///< largest distance of a loop joint or a centre of mass from its frame's origin, [m]
+  double reach_ = 0.0;  ///< largest distance of a cut joint or a centre of mass from its frame's origin, [m]
   double size_ = 0.0;   ///< the same of the last position, from the origin of W
   bool rates_fit_ = true;
   int turned_over_ = -1;
@@ -164,8 +165,9 @@ class LoopClosure {
 };
 
 /// True if a step between positions with these determinants of Phi_q stays on one assembly branch. Two
-/// branches meet where the determinant vanishes: they do not meet while it changes by less than its distance
-/// from zero. Its sign alone does not tell, since the determinant of a flat linkage vanishes as a square.
+/// branches meet where the determinant vanishes: the step stays on the branch if the determinant keeps its
+/// sign and changes by a factor below 3. The sign alone does not tell, since the determinant of a flat
+/// linkage vanishes as a square.
 [[nodiscard]] inline bool keeps_branch(double from, double to) {
   const double ratio = to / from;
   return ratio > 1.0 / 3.0 && ratio < 3.0;

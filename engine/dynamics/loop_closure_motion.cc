@@ -61,7 +61,7 @@ bool LoopClosure::solve(double t, Evaluation& at) {
 
 bool LoopClosure::solve_motion(double t, Evaluation& at) {
   assert(active_rows_.size() == unknown_.size());
-  predict(t, at);
+  start_from_taylor_series(t, at);
   set_drives(t, at);
   if (!close_position(at)) return false;
   solve_rates(at);
@@ -72,7 +72,7 @@ bool LoopClosure::solve_motion(double t, Evaluation& at) {
 }
 
 /// Taylor series of the unknown coordinates; their accelerations are set to zero, to be solved for.
-void LoopClosure::predict(double t, Evaluation& at) const {
+void LoopClosure::start_from_taylor_series(double t, Evaluation& at) const {
   const double dt = t - at.t;
   for (const FrameIndex i : unknown_) {
     at.q[i] += dt * (at.qd[i] + 0.5 * dt * at.qdd[i]);

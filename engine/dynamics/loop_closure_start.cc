@@ -59,18 +59,20 @@ Evaluation make_at_rest(Eigen::VectorXd q) {
 
 }  // namespace
 
-/// Whether nothing but drives and constraints moves the mechanism.
+/// @returns whether nothing but drives and constraints moves the mechanism
 bool LoopClosure::is_left_to_drives() const {
-  const auto at_rest = [](const Coordinate& c) { return c.stiffness == 0.0 && c.damping == 0.0; };
+  const auto has_no_spring_or_damper = [](const Coordinate& c) {
+    return c.stiffness == 0.0 && c.damping == 0.0;
+  };
   return ideal_.springs.empty() && ideal_.actuations.empty() && ideal_.body_loads.empty() &&
-         std::all_of(ideal_.coordinates.begin(), ideal_.coordinates.end(), at_rest) &&
+         std::ranges::all_of(ideal_.coordinates, has_no_spring_or_damper) &&
          unknown_.size() + ideal_.drives.size() == ideal_.coordinates.size();
 }
 
 /// Numerical rank of Phi_q of the unknown coordinates.
 Eigen::Index LoopClosure::calc_rank() const { return rank_of(calc_columns_above_noise(unknown_)); }
 
-/// Whether the drives, when they have moved a little, determine the motion.
+/// @returns whether the drives, when they have moved a little, determine the motion
 bool LoopClosure::is_determined_elsewhere(const Evaluation& assembled) {
   const Eigen::VectorXd displacement = calc_drive_displacement(ideal_);
   const Eigen::VectorXd moved = perturb(ideal_, assembled.q + displacement, kPerturbation, kAlternating);
@@ -146,8 +148,8 @@ Eigen::Index LoopClosure::calc_binding_rank() const {
   return J.size() == 0 ? 0 : decompose(calc_row_weights().asDiagonal() * J, kBindsWeakly).rank();
 }
 
-/// Whether accelerations exist that keep the rigid joints closed, with the accelerations of the drives: where
-/// rows of Phi_q are dependent, the velocities may leave none.
+/// @returns whether accelerations exist that keep the rigid joints closed, with the accelerations of the
+/// drives: where rows of Phi_q are dependent, the velocities may leave none
 bool LoopClosure::can_accelerate(const Evaluation& assembled) {
   constexpr double kFits = 1e-3, kRounding = 1e-9;  // of the bias; of the squares of the rates
   Evaluation at = assembled;
@@ -170,7 +172,7 @@ bool LoopClosure::drives_can_start(const Evaluation& assembled) {
   return is_free(displacement) || close_from_perturbed(start).has_value();
 }
 
-/// Whether the other coordinates can follow a small displacement of the drives, to first order.
+/// @returns whether the other coordinates can follow a small displacement of the drives, to first order
 bool LoopClosure::is_free(const Eigen::VectorXd& displacement) const {
   constexpr double kTorn = 0.5;  // of the residual of each drive alone: drives may differ a little
   constexpr double kFar = 1e3;   // of the drives' displacement: nearer to a dead position counts as one
@@ -181,8 +183,8 @@ bool LoopClosure::is_free(const Eigen::VectorXd& displacement) const {
          left.norm() <= kTorn * (Phi_q.cwiseAbs() * displacement.cwiseAbs()).norm();
 }
 
-/// Whether the loops close, with the drives fixed, from a perturbed position. In a dead position no
-/// displacement is free to first order, but the linkage may still move.
+/// Closes the loops, with the drives fixed, from a perturbed position. In a dead position no displacement is
+/// free to first order, but the linkage may still move.
 /// @returns the position in which they close; empty: they do not
 std::optional<Eigen::VectorXd> LoopClosure::close_from_perturbed(Eigen::VectorXd q) {
   constexpr double kMeets = 1e-9;   // [m] and [1]

@@ -23,7 +23,7 @@
 
 namespace engine {
 
-/// Which shifts (shift 1 - J) is factored with.
+/// Shifts with which (shift 1 - J) is factored.
 enum class Shifts { kReal, kRealAndComplex };
 
 /// The mechanism as a first-order system dy/dt = f(t, y), Eqs. (13.1) and (13.2).

@@ -12,8 +12,8 @@ namespace engine {
 
 namespace {
 
-/// Whether a coordinate is of the same joint as its parent: the frame between has no mass and is where the
-/// coordinate begins.
+/// @returns whether a coordinate is of the same joint as its parent: the frame between has no mass and is
+/// where the coordinate begins
 bool continues_joint(const Mechanism& mechanism, FrameIndex i) {
   const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
   return c.parent != kGround && c.placement.p.isZero(0.0) && is_unrotated(c.placement) &&

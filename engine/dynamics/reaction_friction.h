@@ -31,7 +31,7 @@ class ReactionFriction {
   /// @param mechanism  must outlive this
   explicit ReactionFriction(const Mechanism& mechanism);
 
-  /// Whether no friction depends on reactions.
+  /// @returns whether no friction depends on reactions
   [[nodiscard]] bool empty() const { return joints_.empty(); }
   /// Normal forces by reactions, one an Actuation, 0 of those that have none, [N]
   [[nodiscard]] const Eigen::VectorXd& normal_forces() const { return normal_forces_; }

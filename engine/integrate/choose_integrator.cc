@@ -47,7 +47,7 @@ double choose_refinement(const ClearanceParameters& joint) {
   return joint.form == RadialForm::kElements ? kForElements : kForOtherFriction;
 }
 
-/// Whether any joint with clearance has the property.
+/// @returns whether any joint with clearance has the property
 template <typename Has>
 bool has_any(const Mechanism& mechanism, const Has& has) {
   return std::ranges::any_of(mechanism.cut_joints,

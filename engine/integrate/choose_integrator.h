@@ -9,10 +9,10 @@
 
 namespace engine {
 
-/// Whether any joint of the mechanism has clearance.
+/// @returns whether any joint of the mechanism has clearance
 [[nodiscard]] bool has_clearance(const Mechanism& mechanism);
 
-/// Whether joints are ideal and there are no springs and dampers: nothing that would be stiff.
+/// @returns whether joints are ideal and there are no springs and dampers: nothing that would be stiff
 [[nodiscard]] bool is_rigid(const Mechanism& mechanism);
 
 /// The integrator that is used: the requested one; for kAuto radau5. With radau5 at the tolerance of

@@ -83,7 +83,7 @@ RunOutcome Integration::run(const Evaluation& assembled) {
   return outcome_;
 }
 
-/// Whether the run takes another step. Fails if it has taken too many, or is to stop.
+/// @returns whether the run takes another step. Fails if it has taken too many, or is to stop.
 bool Integration::can_continue() {
   if (failed_ || !(start_.t < options_.duration)) return false;
   if (outcome_.steps >= options_.step_limit)
@@ -246,7 +246,7 @@ bool Integration::try_fixed_step() {
   return true;
 }
 
-/// Whether a fixed step is accepted. If not, widens the bristles for another try, or fails.
+/// @returns whether a fixed step is accepted. If not, widens the bristles for another try, or fails.
 bool Integration::accept_or_widen(const Trial& trial) {
   if (trial.status == EvaluationStatus::kBristleMissing) {
     widen_bristles();
@@ -293,7 +293,7 @@ void Integration::set_next_step(double dt, double error) {
          "the motion asks for steps below 1e-11 s: a linkage that jams does, and very light bodies in loops");
 }
 
-/// Whether the step just tried has passed by what a table over position or velocity says.
+/// @returns whether the step just tried has passed by what a table over position or velocity says
 bool Integration::passes_by_a_table() const {
   return std::ranges::any_of(mechanism_.actuations, [this](const Actuation& actuation) {
     return is_passed_by(actuation, start_.at.q, end_.at.q, start_.at.qd, end_.at.qd);
@@ -311,7 +311,7 @@ Trial Integration::try_step(double dt) {
   return trial;
 }
 
-/// Whether a trial is accepted. If not, sets the next step, or fails.
+/// @returns whether a trial is accepted. If not, sets the next step, or fails.
 bool Integration::accept_or_shrink(const Trial& trial, double dt) {
   if (trial.status == EvaluationStatus::kBristleMissing && dt <= kWidenBelow) {
     widen_bristles();

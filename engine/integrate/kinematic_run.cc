@@ -82,7 +82,7 @@ class KinematicRun {
     return true;
   }
 
-  /// Whether the run solves another block. Fails if it has taken too many steps, or is to stop.
+  /// @returns whether the run solves another block. Fails if it has taken too many steps, or is to stop.
   [[nodiscard]] bool can_continue(long block) {
     if (!(nodes_[0].t < options_.duration) || outcome_.status != RunStatus::kSucceeded) return false;
     if (block % kBlocksBetweenQueries == 0 && observer_.stop_requested(nodes_[0].t))
@@ -159,8 +159,8 @@ class KinematicRun {
     calc_energies(at);
   }
 
-  /// Whether the motion goes on as predicted, on the branch on which it was: another one would differ by
-  /// about the motion since the change point.
+  /// @returns whether the motion goes on as predicted, on the branch on which it was: another one would
+  /// differ by about the motion since the change point
   [[nodiscard]] bool is_continued(double t, const Evaluation& before, const Evaluation& nearby,
                                   const Evaluation& at) {
     constexpr double kPredicted = 1e-3;  // of the motion between the two instants
@@ -199,11 +199,12 @@ class KinematicRun {
     for (double step = first; step >= shortest; step *= 0.5) {
       times_ = calc_block_instants(nodes_[0].t, step, limit, options_.duration);
       if (!solve_nodes()) continue;
+      const bool resolved = interpolate_block();
       // Rounding, which grows next to change points, does not fall with the step.
-      const bool rounding = !is_resolved() && interpolation_error_ > 0.5 * last_error;
+      const bool rounding = !resolved && interpolation_error_ > 0.5 * last_error;
       last_error = interpolation_error_;
       if (!is_power_bounded()) continue;
-      if (!(interpolation_error_ <= kResolved || rounding || step < kShortResolved * allowed)) continue;
+      if (!(resolved || rounding || step < kShortResolved * allowed)) continue;
       if (step < first) next_step_ = step;
       if (interpolation_error_ < kEasy * kResolved) next_step_ = std::max(next_step_, 2.0 * step);
       return true;
@@ -216,36 +217,39 @@ class KinematicRun {
     outcome_.evaluations += kSteps;
     step_ = times_[1] - times_[0];
     for (std::size_t k = 1; k <= kSteps; ++k) {
-      const Evaluation& before = nodes_[k == 1 ? kSteps - 1 : k - 2];  // for k = 1 in the block before
-      const std::optional<bool> far = solve_node(times_[k], last, before, nodes_[k - 1], nodes_[k]);
-      if (!far) return false;
-      is_far_[k] = *far;
+      const Evaluation& before =
+          nodes_[k == 1 ? kSteps - 1 : k - 2];  // for k = 1 in the block before, or in a try
+      const Node node = solve_node(times_[k], last, before, nodes_[k - 1], nodes_[k]);
+      if (node == Node::kNone) return false;
+      is_far_[k] = node == Node::kFar;
       last = determinant_;
     }
     end_determinant_ = last;
     return true;
   }
 
+  /// The motion leads to no such node, or to one near a change point or far from all.
+  enum class Node { kNone, kNearChangePoint, kFar };
+
   /// @param last  determinant of the node before
-  /// @returns empty if the motion leads to no such node, else whether it is far from change points
-  [[nodiscard]] std::optional<bool> solve_node(double t, double last, const Evaluation& before,
-                                               const Evaluation& nearby, Evaluation& at) {
+  [[nodiscard]] Node solve_node(double t, double last, const Evaluation& before, const Evaluation& nearby,
+                                Evaluation& at) {
     constexpr double kApart = 0.25;  // of a step: nearer to a change point, rounding grows, and branches are
                                      // too close for is_continued() to tell
     if (solve(t, before, nearby, at)) {
-      if (keeps_branch(last, determinant_)) return true;
+      if (keeps_branch(last, determinant_)) return Node::kFar;
       if (std::abs(determinant_) > kApart * std::abs(determinant_ - last) &&
           is_continued(t, before, nearby, at))
-        return false;
+        return Node::kNearChangePoint;
     }
-    return solve_beside(t, before, nearby, at) ? std::optional(false) : std::nullopt;
+    return solve_beside(t, before, nearby, at) ? Node::kNearChangePoint : Node::kNone;
   }
 
   /// Computes the interpolants of the block just solved.
   /// @returns whether they resolve the motion inside the block. The error of accelerations is relative to
   /// those near by, since the next extremum may be as high and as narrow as the last; the error of powers to
   /// the largest of the run, since their sum counts.
-  bool is_resolved() {
+  bool interpolate_block() {
     // Share of the rates' squares. Smaller accelerations of a uniform motion do not count: next to a change
     // point they are rounding.
     constexpr double kUniform = 0.3;
@@ -292,8 +296,8 @@ class KinematicRun {
     return error;
   }
 
-  /// Whether the powers of the drives go on next to a change point as they came. Where a drive works against
-  /// what its linkage cannot do, its force has no bound, and the motion ends.
+  /// @returns whether the powers of the drives go on next to a change point as they came. Where a drive works
+  /// against what its linkage cannot do, its force has no bound, and the motion ends.
   [[nodiscard]] bool is_power_bounded() const {
     constexpr double kBounded = 1e-3;  // of the largest power before
     return std::ranges::all_of(is_far_, std::identity()) || power_error_ <= kBounded * passed_power_;
@@ -311,8 +315,8 @@ class KinematicRun {
     return at.drive_force[static_cast<Eigen::Index>(drive)] * at.qd[mechanism_.drives[drive].coordinate];
   }
 
-  /// Whether the k-th step of the block is far from change points: extrema are sought there only.
-  [[nodiscard]] bool is_far(std::size_t k) const { return is_far_[k] && is_far_[k + 1]; }
+  /// @returns whether the k-th step of the block is far from change points: extrema are sought there only
+  [[nodiscard]] bool is_step_far(std::size_t k) const { return is_far_[k] && is_far_[k + 1]; }
 
   void report_block() {
     collect_split_instants();
@@ -333,7 +337,7 @@ class KinematicRun {
     const Evaluation* from = &nodes_[k];
     const double apart = 0.1 * kExtremumStep * (nodes_[k + 1].t - nodes_[k].t);
     for (std::size_t i = 0; split != splits_.end() && *split < nodes_[k + 1].t; ++split) {
-      if (*split < from->t + apart || *split > nodes_[k + 1].t - apart || !is_far(k)) continue;
+      if (*split < from->t + apart || *split > nodes_[k + 1].t - apart || !is_step_far(k)) continue;
       Evaluation& at = extra_[i];
       ++outcome_.evaluations;
       if (!solve(*split, nodes_[k], nodes_[k + 1], at)) continue;
@@ -342,7 +346,7 @@ class KinematicRun {
       from = &at;
       i = 1 - i;
     }
-    accept(*from, nodes_[k + 1], is_far(k));
+    accept(*from, nodes_[k + 1], is_step_far(k));
     return split;
   }
 

@@ -10,8 +10,8 @@
 
 namespace engine {
 
-/// Whether a mechanism may be run by run_kinematics() if its drives determine the motion: joints are ideal,
-/// driven coordinates are substituted, and no fixed step is asked for.
+/// @returns whether a mechanism may be run by run_kinematics() if its drives determine the motion: joints are
+/// ideal, driven coordinates are substituted, and no fixed step is asked for
 [[nodiscard]] bool allows_kinematics(const Mechanism& mechanism, Integrator integrator);
 
 /// The place of a change point, for the user: the instant and the driven coordinates.
@@ -26,9 +26,9 @@ namespace engine {
 /// interpolant (Boole's rule at the block's end).
 ///
 /// A step is split where an interpolant has an extremum: of the acceleration of an unknown coordinate, of a
-/// drive's force, of a reaction's magnitude. So the extrema of all of them are ends of steps. An acceleration
-/// gets a short step around its extremum, so that the quadratic by which observers read steps finds the
-/// extremum and its instant.
+/// drive's force, of a reaction's magnitude. Far from change points, extrema of forces and reactions are
+/// ends of steps. The extremum of an acceleration lies inside a short step: the quadratic by which observers
+/// read steps finds the extremum and its instant.
 ///
 /// Change points, where two branches of the motion cross, are passed on the smooth branch: the step may be
 /// any length in which the motion continues as predicted. In the change point itself constraints do not

@@ -60,7 +60,7 @@ class RodasSystem : public StageSystem {
   bool& linearised_;
 };
 
-/// What is at the end of a step that no stage has evaluated.
+/// Evaluates the end of a step, which no stage has evaluated.
 void evaluate_end(MotionSystem& system, StepPoint& end, Trial& trial) {
   ++trial.evaluations;
   trial.status = system.calc_derivative(end.t, end.y, end.f, end.at);

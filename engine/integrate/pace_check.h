@@ -28,7 +28,7 @@ class PaceCheck {
 
   double duration_, limit_;
   long stretch_, next_;
-  double since_ = 0.0;  ///< when the stretch began, [s]
+  double since_ = 0.0;  ///< start of the stretch, [s]
   int slow_stretches_ = 0;
 };
 

@@ -149,10 +149,10 @@ class Rodas5Stepper {
     for (Eigen::Index k = 0; k < size; ++k) sum[k] = (from[k] + ... + (factors[j] * stages[j][k]));
   }
 
-  algebra_type algebra_;         ///< what Odeint measures errors with
+  algebra_type algebra_;  ///< measures errors for Odeint
   std::array<state_type, K::kStages> U_;
-  state_type stage_;             ///< argument of the stage at hand
-  state_type start_f_, error_;   ///< for callers that do without
+  state_type stage_;            ///< argument of the stage at hand
+  state_type start_f_, error_;  ///< for callers that do without
 };
 
 }  // namespace engine

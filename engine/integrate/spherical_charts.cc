@@ -49,7 +49,7 @@ Eigen::Matrix3d calc_rotation(const Eigen::Vector3d& angles) {
       .toRotationMatrix();
 }
 
-/// Angular velocity in the body's frame, of the rates of (psi, theta, phi). By time:
+/// Angular velocity in the body's frame, of the rates of (psi, theta, phi). A prime is a derivative by time:
 ///
 ///     w = (phi' - psi' sin theta,
 ///          theta' cos phi + psi' cos theta sin phi,
@@ -66,7 +66,7 @@ Eigen::Vector3d calc_rates(const Eigen::Vector3d& q, const Eigen::Vector3d& w) {
   return {psi, w.y() * c - w.z() * s, w.x() + psi * std::sin(q[1])};
 }
 
-/// The part of the derivative of calc_velocity() that second derivatives of the angles have no part in.
+/// Derivative of calc_velocity() by time, without second derivatives of the angles.
 Eigen::Vector3d calc_bias(const Eigen::Vector3d& q, const Eigen::Vector3d& qd) {
   const double s = std::sin(q[2]), c = std::cos(q[2]);
   const double across = qd[0] * std::cos(q[1]), across_d = -qd[0] * qd[1] * std::sin(q[1]);

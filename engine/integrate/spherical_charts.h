@@ -12,7 +12,7 @@
 namespace engine {
 
 /// Charts of spherical joints: of three rotations in a row about z, y and x of one point, free of springs,
-/// drives and couplings.
+/// dampers, drives, actuators and couplings.
 ///
 /// At theta = +-90 degrees two of the three axes coincide, and rates of the angles grow without bound (gimbal
 /// lock). Before that, the angles begin anew from zero:
@@ -26,7 +26,7 @@ class SphericalCharts {
   explicit SphericalCharts(const Mechanism& mechanism);
 
   [[nodiscard]] bool empty() const { return joints_.empty(); }
-  /// Whether any angle is that of another chart than the given one.
+  /// @returns whether any angle is that of another chart than the given one
   [[nodiscard]] bool any_moved() const { return any_moved_; }
 
   /// Begins a new chart of each joint whose theta has gone far.
@@ -39,8 +39,8 @@ class SphericalCharts {
   [[nodiscard]] Angles angles_of(const Eigen::VectorXd& q) const;
 
   /// Gives the evaluation the angles of the given chart. Of the many that are the same rotation, those
-  /// nearest to `near` are taken. In the singular position itself, where rates would not be finite, they are
-  /// those a little beside it.
+  /// nearest to `near` are taken. In gimbal lock itself, where rates would not be finite, they are those a
+  /// little beside it.
   void restore_given(const Angles& near, Evaluation& at) const;
 
  private:

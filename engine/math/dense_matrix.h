@@ -93,7 +93,7 @@ class DenseMatrix {
  private:
   std::size_t n_ = 0;
   Buffer<Scalar> entries_;       ///< row after row
-  Buffer<std::size_t> order_;    ///< which row each one was exchanged with
+  Buffer<std::size_t> order_;    ///< row with which each one was exchanged
 };
 
 }  // namespace RPSUP_INSTRUCTION_SET

@@ -9,8 +9,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// A number with its derivatives in several directions: forward differentiation, exact to rounding. What is
-/// computed with these is computed together with its derivatives, from the same lines of code.
+/// A number with its derivatives in several directions: forward differentiation, exact to rounding. A
+/// calculation with such numbers yields its derivatives, too, from the same lines of code.
 template <int count>
 struct DualOf {
   double value;

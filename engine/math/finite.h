@@ -9,8 +9,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Whether x is neither infinite nor not a number, by its bits: the equations of motion are compiled as if
-/// every number were one.
+/// @returns whether x is neither infinite nor not a number, by its bits: the equations of motion are compiled
+/// as if every number were one
 [[nodiscard]] RPSUP_INLINE bool is_number(double x) {
   constexpr std::uint64_t kExponent = 0x7ff0000000000000;
   return (std::bit_cast<std::uint64_t>(x) & kExponent) != kExponent;

@@ -41,7 +41,7 @@ struct LanePart<8> {
   using Stored = double __attribute__((vector_size(64), aligned(8), may_alias));
 };
 
-/// Whether one of the lanes, each all zeros or all ones, is ones.
+/// @returns whether one of the lanes, each all zeros or all ones, is ones
 [[nodiscard]] RPSUP_INLINE bool any(const LanePart<2>::Bits& lanes) {
   return _mm_movemask_pd(reinterpret_cast<__m128d>(lanes)) != 0;
 }
@@ -207,7 +207,7 @@ template <int count>
   return for_each_part<count>([&](int i) RPSUP_INLINE_LAMBDA { return s * a.part[i] + t * b.part[i]; });
 }
 
-/// Whether the magnitudes of all lanes are less than limit.
+/// @returns whether the magnitudes of all lanes are less than limit
 template <int count>
 [[nodiscard]] RPSUP_INLINE bool all_below(const LaneBlock<count>& a, double limit) {
   using Bits = typename LanePart<LaneBlock<count>::kWidth>::Bits;

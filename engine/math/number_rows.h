@@ -16,10 +16,10 @@ inline constexpr int kRowBlock = 4;
   return (numbers + kRowBlock - 1) / kRowBlock * kRowBlock;
 }
 
-/// Those of a row that are taken at once. However many: what is computed with each of them is the same.
+/// Numbers of a row that are taken at once. Their count does not change any result.
 using RowLanes = LaneBlock<kWidestPart < kRowBlock ? kWidestPart : kRowBlock>;
 
-/// Where a vector of numbers stands: complex ones as two, so that several of them stand side by side.
+/// Address of a vector of numbers; of complex ones two, so that several parts of a kind stand side by side.
 template <typename Scalar>
 struct NumbersAt;
 template <>
@@ -53,7 +53,7 @@ struct NumbersAt<Complex<double>> {
   [[nodiscard]] RPSUP_INLINE NumbersAt from(int i) const { return {real + i, imag + i}; }
 };
 
-/// Where rows of numbers stand.
+/// Address of rows of numbers, and the distance from row to row.
 template <typename Scalar>
 struct RowsAt {
   NumbersAt<Scalar> first;

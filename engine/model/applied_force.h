@@ -67,8 +67,8 @@ void calc_applied_forces(const Actuation& actuation, double t, const ElementStat
 /// acceleration jumps; infinite if none follows, [s]
 [[nodiscard]] double find_next_corner(const Actuation& actuation, double t);
 
-/// Whether a force over position or velocity is another one on the way between two instants than a straight
-/// line between them has: a step from the one to the other would pass it by.
+/// @returns whether a force over position or velocity is another one on the way between two instants than a
+/// straight line between them has: a step from the one to the other would pass it by
 [[nodiscard]] bool is_passed_by(const Actuation& actuation, const Eigen::VectorXd& q_from,
                                 const Eigen::VectorXd& q_to, const Eigen::VectorXd& qd_from,
                                 const Eigen::VectorXd& qd_to);

@@ -21,7 +21,7 @@ Placement compose(const Placement& outer, const Placement& inner) {
   return {outer.R * inner.R, outer.R * inner.p + outer.p};
 }
 
-/// Where a body's frame is in that of the joint which sits on it as given.
+/// Placement of a body's frame in the frame of a joint. @param placement  of the joint in the body's frame
 Placement inverse_of(const Placement& placement) {
   if (is_none(placement)) return placement;
   const Eigen::Matrix3d R = placement.R.transpose();

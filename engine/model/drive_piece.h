@@ -43,7 +43,7 @@ class DrivePiece {
   /// The instant of the next jump, infinite if there is none, [s]
   [[nodiscard]] double end() const { return end_; }
 
-  /// Whether a step that ends at t has come to the jump, but for rounding.
+  /// @returns whether a step that ends at t has come to the jump, but for rounding
   [[nodiscard]] bool is_over(double t) const { return t >= end_ * (1.0 - kSameInstant); }
 
   /// Goes on to the piece behind this one's end.

@@ -8,7 +8,7 @@ struct DrivenMotion {
   double q = 0.0;     ///< [rad] or [m]
   double qd = 0.0;    ///< its derivatives by time
   double qdd = 0.0;
-  double qddd = 0.0;  ///< what linearising by time needs
+  double qddd = 0.0;  ///< for linearising by time
 };
 
 }  // namespace engine

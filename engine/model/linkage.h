@@ -15,8 +15,8 @@
 
 namespace engine {
 
-/// What the joint of a linkage lets the body that it carries do. Several freedoms come in the order in which
-/// they stand here.
+/// Kind of a joint of a linkage: the freedoms of the body that it carries. Several freedoms come in the order
+/// in which they stand here.
 enum class JointKind {
   kRevolute,     ///< turn about the axis
   kPrismatic,    ///< slide along the axis
@@ -136,7 +136,7 @@ struct FreedomKind {
 };
 [[nodiscard]] std::vector<FreedomKind> freedoms_of(const LinkageJoint& joint);
 
-/// Where a body is: its own frame, of a divided one that of each element, the first at its origin.
+/// Frames of a body: its own, or those of a divided body's elements, the first at the body's origin.
 struct BodyFrames {
   struct Part {
     FrameIndex frame = kGround;
@@ -154,7 +154,7 @@ struct BuiltJoint {
   int cut = -1;
 };
 
-/// Where an accelerometer sits.
+/// Place and direction of an accelerometer.
 struct BuiltAccelerometer {
   FrameIndex frame = kGround;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();         ///< in `frame`, [m]

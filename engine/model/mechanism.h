@@ -52,9 +52,9 @@ struct Coordinate {
   double stiffness = 0.0;             ///< spring on the coordinate, [N m/rad] or [N/m]
   double damping = 0.0;               ///< damper on the coordinate, [N m s/rad] or [N s/m]
   double armature = 0.0;              ///< of a rotor geared to the coordinate, n^2 J, [kg m^2] or [kg]
-  double assembly_guess = 0.0;        ///< where Newton's method begins to close the loops, [rad] or [m]
+  double assembly_guess = 0.0;        ///< start of Newton's method, which closes the loops, [rad] or [m]
   std::optional<double> start =
-      {};  ///< where it is at t = 0, whatever the loops ask of the others, [rad] or [m]
+      {};  ///< value at t = 0, whatever the loops ask of the other coordinates, [rad] or [m]
   std::optional<double> start_rate =
       {};  ///< its rate then; empty: what the loops ask, 0 if they leave it free, [rad/s] or [m/s]
   bool spring_yields =
@@ -71,7 +71,7 @@ struct Coordinate {
   return c.motion == Motion::kRotation && c.placement.p.isZero(0.0);
 }
 
-/// What a joint at which a loop is cut lets its journal do in the bearing.
+/// Motion that a cut joint allows its journal in the bearing.
 enum class CutKind {
   kRevolute,     ///< turn about z
   kSpherical,    ///< turn about any axis

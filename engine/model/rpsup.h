@@ -18,7 +18,7 @@ struct BentLink {
   double length = 0.0;          ///< [m]
 };
 
-/// Where the study's quantities are found in the mechanism of an RPSUP linkage.
+/// Places of the study's quantities in the mechanism of an RPSUP linkage.
 struct RpsupLayout {
   FrameIndex crank = 0;     ///< psi^(1,1), the first drive
   FrameIndex rod = 0;       ///< z^(1,2), the second drive

@@ -42,7 +42,7 @@ namespace engine {
 /// guide the linkage cannot be assembled below 0; at 0 its two ways of assembly meet.
 [[nodiscard]] double calc_yoke_arm(const RpsupParameters& parameters, double t);
 
-/// Where Newton's method begins to close the loop at t = 0.
+/// Start of Newton's method, which closes the loop at t = 0.
 struct AssemblyGuess {
   double psi_13 = 0.0, theta_13 = 0.0, phi_13 = 0.0;  ///< of the S joint, [rad]
   double z_21 = 0.0;                                  ///< [m]

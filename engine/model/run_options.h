@@ -8,12 +8,12 @@ namespace engine {
 /// kAuto: choose_integrator() says which.
 enum class Integrator { kAuto, kRadau5, kRodas5, kDopri5, kRk4 };
 
-/// Whether a method solves for what it steps over.
+/// @returns whether a method solves for what it steps over
 [[nodiscard]] constexpr bool is_implicit(Integrator integrator) {
   return integrator == Integrator::kRadau5 || integrator == Integrator::kRodas5;
 }
 
-/// How a run is integrated and what is kept of it.
+/// Settings of a run: its time span, its output, its integrator and the accuracy.
 struct RunOptions {
   double duration = 5.0;                    ///< [s], > 0
   double output_rate = 1000.0;              ///< samples of the trajectory, [Hz]
@@ -26,7 +26,7 @@ struct RunOptions {
   long step_limit = 100'000'000;            ///< steps after which the run ends with kStepLimit
 };
 
-/// How a run ended. Everything but kSucceeded keeps the samples up to the time of the end.
+/// End of a run. A run that does not succeed keeps its samples up to then.
 enum class RunStatus {
   kSucceeded,
   kAssembly,       ///< the loop cannot be closed at t = 0

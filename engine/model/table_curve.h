@@ -32,7 +32,7 @@ class TableCurve {
 
   [[nodiscard]] Point calc(double x) const;
   [[nodiscard]] double next_point(double x) const;  ///< infinite behind the last
-  [[nodiscard]] double next_kink(double x) const;   ///< where the slope jumps; infinite behind the last
+  [[nodiscard]] double next_kink(double x) const;   ///< next jump of the slope; infinite behind the last
   /// Largest distance of the points between two arguments from the straight line between the values there, by
   /// the difference of the table's largest and least value; 0 without points between them. [1]
   [[nodiscard]] double calc_bulge(double from, double to) const;

@@ -25,7 +25,7 @@ struct DriveCase {
 };
 void PrintTo(const DriveCase& c, std::ostream* out) { *out << c.name; }
 
-/// What holds for every law: the work of its drive is all that the energy comes from.
+/// Energy balance under every law: the work of the drive is the only source of energy.
 class DrivenBy : public testing::TestWithParam<DriveCase> {};
 
 TEST_P(DrivenBy, ALawIsFollowedWithoutLoss) {

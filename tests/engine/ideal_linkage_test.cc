@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the validation's chapter on kinematics leaves open of the linkage without clearance.
+// Properties of the linkage without clearance that the validation's chapter on kinematics leaves open.
 
 #include <algorithm>
 #include <cmath>

@@ -88,8 +88,8 @@ TEST(Linkage, ADriveBearsWhatItsCoordinateIsCoupledTo) {
   EXPECT_LT(run.metric("energy_imbalance_j"), 1e-9);
 }
 
-// What a drive that turns does must be in the work that it does, also where only a slide is free: bodies whose masses lie beside it, on a driven
-// crank, and under a driven eccentric.
+// The work of turning drives balances the energy, also where only a slide is free: the masses lie beside the
+// slide, on a driven crank, and under a driven eccentric.
 TEST(Linkage, ADriveFeelsWhatSlidesBesideItsAxis) {
   Linkage linkage;
   linkage.gravity_W = {0.0, -9.81, 0.0};
@@ -261,7 +261,7 @@ TEST(LinkageRefusal, LetsDrivesBeginThatDoNotJam) {
   const auto away = [](double rise) { return LinkageFreedom{.name = "x", .drive = CycloidalRise{.from = 0.1, .rise = rise, .time = 0.1}}; };
   EXPECT_EQ(refused_field(make_scotch_yoke(0.1, resting, away(-0.05))), "");
   EXPECT_EQ(refused_field(make_scotch_yoke(0.1, resting, away(0.05))), "joints");
-  // What begins later is seen when it comes to it.
+  // A drive that jams after a later beginning is accepted: the run finds the jam.
   const LinkageFreedom later{.name = "x", .drive = CycloidalRise{.from = 0.1, .rise = 0.05, .begin = 1.0, .time = 0.1}};
   EXPECT_EQ(refused_field(make_scotch_yoke(0.1, resting, later)), "");
   // Two drives that go together round a small circle, of which a tenth of a millimetre is a good part.

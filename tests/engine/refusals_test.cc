@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is no linkage is refused before it runs, and what locks while it runs says so.
+// Refusals of input that is no linkage, before the run, and reports of linkages that lock during the run.
 
 #include <cmath>
 #include <functional>

@@ -170,6 +170,9 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
   const json ended = wait_for_study_end(service, id);
   EXPECT_EQ(ended.at("verdict"), "hours_reached");
   EXPECT_THROW((void)service.delete_sweep(ended.at("sweep_id")), jobs::WrongState);
+  EXPECT_THROW(
+      (void)service.extend_sweep(ended.at("sweep_id"), {{"cases", {nlohmann::ordered_json::object()}}}),
+      jobs::WrongState);
   EXPECT_EQ(service.find_sweep(ended.at("sweep_id")).value().at("links").at("study"), "/v1/wear-studies/" + id);
   EXPECT_TRUE(service.delete_study(StudyKind::kWear, id));
   EXPECT_FALSE(service.find_study(StudyKind::kWear, id));
@@ -248,9 +251,9 @@ TEST(WearStudy, IsListedApartFromSearches) {
   const std::string id = service.submit_study(StudyKind::kWear, kRequest).at("id");
   (void)wait_for_study_end(service, id);
   EXPECT_EQ(service.list_studies(StudyKind::kWear, {}).at("items").at(0).at("id"), id);
-  EXPECT_TRUE(service.list_studies(StudyKind::kLimit, {}).at("items").empty());
-  EXPECT_FALSE(service.find_study(StudyKind::kLimit, id));
-  EXPECT_FALSE(service.cancel_study(StudyKind::kLimit, id));
+  EXPECT_TRUE(service.list_studies(StudyKind::kSearch, {}).at("items").empty());
+  EXPECT_FALSE(service.find_study(StudyKind::kSearch, id));
+  EXPECT_FALSE(service.cancel_study(StudyKind::kSearch, id));
 }
 
 }  // namespace

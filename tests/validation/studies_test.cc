@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the study's chapters stand on: parts computed on threads, look-up by case, requests that the service
+// Foundations of the study's chapters: parts computed on threads, look-up by case, requests that the service
 // takes.
 
 #include <atomic>

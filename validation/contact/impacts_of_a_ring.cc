@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ring of elements does otherwise than the closed form in a single impact.
+// Differences between a ring of elements and the closed form in a single impact.
 
 #include <algorithm>
 #include <cmath>

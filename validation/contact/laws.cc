@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the choice of the joint's laws does to the study: one law changed at a time.
+// Effect of the choice of the joint's laws on the study: one law changes at a time.
 
 #include <string>
 #include <utility>

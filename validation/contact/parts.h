@@ -17,9 +17,9 @@ namespace validation {
 [[nodiscard]] Findings compute_impacts_of_a_ring();
 /// A ring's elements have each a bristle of their own, which changes the friction's torque.
 [[nodiscard]] Findings compute_turning_journal();
-/// Why whole runs with elements have other peaks than those with the closed form.
+/// Cause of the difference between peaks of whole runs with elements and with the closed form.
 [[nodiscard]] Findings compute_whole_runs_with_elements();
-/// What the choice of the joint's laws does to the study.
+/// Effect of the choice of the joint's laws on the study.
 [[nodiscard]] Findings compare_laws();
 /// Forces and moments on a tilted journal are those of statics, for rings and for rings of elements.
 [[nodiscard]] Findings compute_tilted_journal();

@@ -97,7 +97,7 @@ double simulate_face_rebound(double k_r, double gap, const RunOptions& steps) {
   return -observer.rate / kReboundSpeed;
 }
 
-/// What laws return with a restitution coefficient of 0, as the help of that parameter says.
+/// Rebound ratio of a law with a restitution coefficient of 0, as the help of that parameter says.
 struct Returned {
   const char* name;
   NormalForceLaw law;

@@ -38,7 +38,7 @@ struct Arc {
   [[nodiscard]] double R() const { return e() + joint.r_j(); }
   /// Elements at angle theta from the offset are depth - a theta^2 / 2 deep, but for terms of theta^4.
   [[nodiscard]] double a() const { return e() * joint.r_j() / R(); }
-  /// Where the depth is zero.
+  /// Angle at which the depth is zero.
   [[nodiscard]] double half_angle() const {
     const double r_j = joint.r_j();
     return std::acos((joint.r_b * joint.r_b - r_j * r_j - e() * e()) / (2.0 * e() * r_j));

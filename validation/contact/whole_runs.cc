@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a whole run with elements has another peak than one with the closed form: one thing changed at a time.
+// Cause of the difference between peaks of whole runs with elements and with the closed form: one thing
+// changes at a time.
 
 #include <string>
 #include <utility>

@@ -45,7 +45,7 @@ class ContactLosses : public QuietObserver {
     const double normal = at.joints[0].load.radial_normal_sum;
     const double depth = std::max(0.0, distance - c_r_);
     impact.take(at.t, (normal - K_ * std::pow(depth, 1.5)) * n.dot(journal.v));
-    // What is left of the force without its normal part is friction, at the place r_j n of the journal.
+    // The force less its normal part is friction, at the place r_j n of the journal.
     const Eigen::Vector3d along = at.joints[0].load.force + normal * n;
     friction.take(at.t, -along.dot(journal.v + journal.w.cross(r_j_ * n)));
     energy = at.energy;

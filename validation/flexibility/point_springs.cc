@@ -84,8 +84,8 @@ double calc_bar_acceleration(double a, double rate) {
          kInertia;
 }
 
-/// That equation by Runge and Kutta's method, in steps that leave an error below 1e-12. @returns the angle,
-/// [rad]
+/// Solution of that equation by Runge and Kutta's method, in steps that leave an error below 1e-12. @returns
+/// the angle, [rad]
 double find_bar_angle(double t) {
   constexpr int kSteps = 20'000;
   const double h = t / kSteps;

@@ -24,7 +24,7 @@ struct Rod {
 /// The same mass without rotary inertia (a part in 1e8 of it is left, for a mass matrix with an inverse).
 [[nodiscard]] Rod slender(Rod rod);
 
-/// How the near end is held. The far end is free.
+/// Support of the near end. The far end is free.
 enum class NearEnd {
   kClamped,    ///< the first rigid element is fixed to the ground
   kSpherical,  ///< as in the linkage

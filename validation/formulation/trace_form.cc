@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kTraceStates = 1000;
 
-/// What is compared, with which equations, and the bound on it.
+/// Compared quantity, its equations, and the reason for its bound.
 struct Quantity {
   const char* name;
   const char* symbol;
@@ -155,7 +155,7 @@ class Worst {
   void take(Index quantity, double found, double expected) {
     take_difference(quantity, std::abs(found - expected), std::abs(expected));
   }
-  /// What is left of equations of motion counts relative to the largest row of |M| |qdd| at the state.
+  /// Residuals of equations of motion count relative to the largest row of |M| |qdd| at the state.
   void take_residual(Index quantity, const Eigen::MatrixXd& M, const Eigen::VectorXd& qdd,
                      const Eigen::VectorXd& residual) {
     const Eigen::VectorXd terms = M.cwiseAbs() * qdd.cwiseAbs();

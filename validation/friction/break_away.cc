@@ -19,7 +19,7 @@ double calc_friction(const OdeState& y) {
   return kLine.dot(calc_on_line(published_law(), y[0], y[1], y[2]).force_ratio);
 }
 
-/// Where three equally spaced values have their parabola's extreme.
+/// Extreme of the parabola through three equally spaced values.
 double parabola_top(double a, double b, double c) {
   const double slope = 0.5 * (c - a);
   return b - 0.5 * slope * slope / (a - 2.0 * b + c);

@@ -11,8 +11,8 @@ namespace validation {
 
 namespace {
 
-/// What the contact turns into heat, per normal force: the friction's power less the growth of the bristle's
-/// energy sigma_0 z^2 / 2.
+/// Heat power of the contact, per normal force: the friction's power less the growth of the bristle's energy
+/// sigma_0 z^2 / 2.
 double calc_heat(const FrictionParameters& law, const Eigen::Vector2d& v, const Eigen::Vector2d& z) {
   const BristleForce f = calc_bristle_force(law, v, z);
   return f.force_ratio.dot(v) - law.sigma_0 * z.dot(f.bristle_rate);
@@ -20,7 +20,7 @@ double calc_heat(const FrictionParameters& law, const Eigen::Vector2d& v, const 
 
 /// Its least value over all bristles along v: through three of them goes the parabola that it is.
 double find_least_heat(const FrictionParameters& law, double v) {
-  const double reach = law.sigma_1 * v / law.sigma_0;  // where the least is to be expected, twice over
+  const double reach = law.sigma_1 * v / law.sigma_0;  // twice the expected place of the least
   const auto heat = [&](double s) { return calc_heat(law, v * kLine, s * reach * kLine); };
   const double a = heat(0.0);
   const double b = heat(0.5);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLimit = 0.16;  // [m/s]
 
-/// How the rings of a joint slide.
+/// Record of the sliding of a joint's rings.
 class SlidingRecord : public QuietObserver {
  public:
   explicit SlidingRecord(const ClearanceParameters& joint) : joint_(joint) {}

@@ -16,7 +16,7 @@ constexpr double kInstantsMass = 1.0;        // [kg]
 constexpr double kInstantsSpeed = 0.3;       // [m/s]
 constexpr double kInstantsGap = 0.25e-3;     // [m]
 constexpr double kInstantsStiffness = 4.7e10;// [N/m^1.5]
-constexpr double kBand = 1e-10;      // how far beyond the bore a step may end that ends "there", [m]
+constexpr double kBand = 1e-10;  // largest distance beyond the bore of a step that ends "there", [m]
 
 double time_in_contact() {
   // m v^2 / 2 = 2/5 K d^2.5; the time in contact is 2 d / v times the integral of (1 - u^2.5)^(-1/2) over [0, 1], 2/5 B(2/5, 1/2).

@@ -9,7 +9,7 @@ namespace validation {
 [[nodiscard]] Findings compute_order_on_a_pendulum();
 /// Orders 4 and 5 on the ideal linkage, with its constraints and drives.
 [[nodiscard]] Findings compute_order_on_the_linkage();
-/// When a contact begins and ends, and how close to that the steps end.
+/// Beginning and end of a contact, and the distance of the steps' ends from them.
 [[nodiscard]] Findings compute_contact_instants();
 /// All integrators give the same peaks of the second geometry: rigid coupler, 0.25 mm.
 [[nodiscard]] Findings compute_peaks_narrow();
@@ -21,7 +21,7 @@ namespace validation {
 [[nodiscard]] Findings compute_peaks_of_the_study();
 /// Peaks by the default with contact elements and other friction.
 [[nodiscard]] Findings compute_peaks_of_other_contacts();
-/// What a digit of the peak costs with each integrator.
+/// Cost of a digit of the peak with each integrator.
 [[nodiscard]] Findings compute_work_and_precision();
 
 }  // namespace validation

@@ -71,7 +71,7 @@ class Opening {
   Mechanism chains_;
 };
 
-/// What a run shows.
+/// Largest magnitudes in a run.
 struct Drift {
   Largest position, velocity;    ///< |Phi|, [m], [1]; |Phi_d|
   Largest opening;               ///< gamma

@@ -25,7 +25,7 @@ using std::numbers::pi;
 
 constexpr double kDriveLawDuration = 5.0;  // [s]
 
-/// Where a law's formula changes.
+/// Instant at which a law's formula changes.
 struct Seam {
   double t;     ///< [s]
   double jump;  ///< of the acceleration
@@ -296,7 +296,7 @@ charts::Chart draw_rod_displacement() {
           .series = {std::move(displacement)}};
 }
 
-/// What the paper shows.
+/// The paper's figure of the drives.
 Figure draw_laws() {
   return {"drive_laws.svg",
           "The drives as in the paper's Fig. 4: the crank at 10 rad/s, the rod by its cosine law.",

@@ -23,8 +23,8 @@ struct Stabilisation {
   double step;  ///< [s]
 };
 
-/// What solves Phi_dd + 2 alpha Phi_d + beta^2 Phi = 0 from given Phi and Phi_d: it does so for any
-/// violation, for the accelerations are chosen to make it hold.
+/// Solution of Phi_dd + 2 alpha Phi_d + beta^2 Phi = 0 from given Phi and Phi_d. The equation holds for any
+/// violation: the accelerations are chosen to make it hold.
 double calc_law(const Stabilisation& s, double Phi, double Phi_d, double t) {
   const double decay = std::exp(-s.alpha * t);
   const double rate = Phi_d + s.alpha * Phi;

@@ -13,8 +13,8 @@ namespace validation {
 
 /// C(u) = u - sin(2 pi u) / (2 pi), the cycloidal law.
 [[nodiscard]] Taylor calc_cycloid(const Taylor& u);
-/// Which acceleration counts at an instant where that of the rod's drive jumps. At t = 0 there is only the
-/// one behind.
+/// Side whose acceleration counts at an instant where that of the rod's drive jumps. At t = 0 there is only
+/// the one behind.
 enum class Side { kBehind, kBefore };
 
 /// psi^(1,1): from `crank_start` at rest to omega_0 by C in `run_up`, then on at that speed.

@@ -16,8 +16,8 @@ namespace validation {
 /// Gravity in the global frame, [m/s^2]
 [[nodiscard]] Eigen::Vector3d calc_gravity(const RpsupParameters& parameters);
 
-/// Where the bearing sits on the last frame of chain 1: on the coupler's end, at this x, [m]. The journal is
-/// the last frame of chain 2.
+/// Place x of the bearing on the last frame of chain 1, at the coupler's end, [m]. The journal is the last
+/// frame of chain 2.
 [[nodiscard]] double calc_bearing_x(const RpsupParameters& parameters);
 
 /// The flexible coupler's elastic and dissipative terms, Eqs. (8) and (9); zeros for a rigid one.

@@ -60,7 +60,7 @@ inline constexpr const char* kCouplers[] = {"rigid", "flexible"};
 [[nodiscard]] std::vector<StudyCase> converging_cases();
 [[nodiscard]] bool converges(const StudyCase& c);
 
-/// How far numbers may move on another machine (Table::reproducible_to): of cases that converge and of those
+/// Largest change of numbers on another machine (Table::reproducible_to): of cases that converge and of those
 /// that are samples.
 inline constexpr double kConvergedReproducibleTo = 1e-3;
 inline constexpr double kSampledReproducibleTo = 100.0;

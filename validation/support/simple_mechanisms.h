@@ -43,7 +43,7 @@ namespace validation {
   return m;
 }
 
-/// Where the slider's mass lies still on the bore: K delta^1.5 = 1 N.
+/// Height at which the slider's mass lies still on the bore: K delta^1.5 = 1 N.
 [[nodiscard]] inline double resting_height(const Mechanism& slider) {
   const ClearanceParameters& joint = *slider.cut_joints[0].clearance;
   return -joint.c_r - std::pow(1.0 / joint.K, 2.0 / 3.0);

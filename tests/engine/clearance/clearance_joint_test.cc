@@ -327,7 +327,7 @@ TEST(MotionSystem, TellsElementsOfALastingContactFromAbruptChanges) {
   EXPECT_TRUE(move_to(0.556e-3).abrupt);                   // the other ring, too
 }
 
-// What a missed element leaves behind must not reach the next evaluation.
+// Remains of a missed element must not reach the next evaluation.
 TEST(RadialElements, AMissLeavesTheNextEvaluationAlone) {
   RpsupParameters parameters = validation::across_rpsup();
   parameters.contact = ContactForm::kElements;

@@ -36,7 +36,7 @@ std::vector<Ring> all_rings() {
   return rings;
 }
 
-/// What a journal's contact did.
+/// Outcome of a journal's contact.
 struct Outcome {
   JointLoad<double> load;
   std::vector<double> rates;

@@ -138,7 +138,7 @@ TEST(WornBore, WornAllAroundItIsAWiderOne) {
   EXPECT_GT(pressing, 80);
 }
 
-// What the force does to a journal in motion is what its elastic energy loses, also along the slope of a groove.
+// The force's power on a moving journal is the loss of elastic energy, also along the slope of a groove.
 TEST(WornBore, ForceIsTheGradientOfWhatItStores) {
   ClearanceParameters joint = make_joint(5e-3, kWornClearance);
   joint.worn = std::make_shared<const WornBore>(kWornClearance, make_depth(48, grooved));

@@ -45,7 +45,7 @@ TEST(PointSpring, LetsABlockSwing) {
       EXPECT_NEAR(run.column("spring_length_m")[k], x, 2e-8) << t;
       EXPECT_NEAR(run.column("spring_tension_n")[k], 800.0 * (x - 0.3) + 4.0 * run.column("block_m_s")[k], 2e-4) << t;
     }
-    // What the spring held at first the damper has taken, but for what is left.
+    // The damper has taken the initial energy of the spring, less the energy that is left at the end.
     const double left = 0.5 * 800.0 * std::pow(run.last("block_m") - 0.3, 2) + std::pow(run.last("block_m_s"), 2);
     EXPECT_NEAR(run.metric("structural_loss_j"), 4.0 - left, 1e-6);
     EXPECT_LT(run.metric("energy_imbalance_j"), 1e-6);

@@ -49,8 +49,9 @@ ClassicalForm make_classical_form() {
   return form;
 }
 
-/// What the sums over the trees of an order lack. Source: Hairer and Wanner, section IV.7, table 7.1 and the rule behind it, with beta_ij
-/// including the diagonal gamma: where a vertex branches, alpha; where it does not, beta.
+/// Defects of the sums over the trees of an order. Source: Hairer and Wanner, section IV.7, table 7.1 and the
+/// rule behind the table, with beta_ij including the diagonal gamma: alpha where a vertex branches,
+/// beta where it does not.
 std::vector<double> find_defects(const ClassicalForm& m, const Eigen::VectorXd& b, int order) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(b.size());
   const Eigen::VectorXd alpha = m.alpha * ones;

@@ -18,7 +18,7 @@ struct ArticulatedInertia {
   Sym3<double> J;             ///< moment by angular acceleration, [kg m^2]
   // Of a slender body instead of C and J, see Eq. (K9):
   Sym3<double> child_A;       ///< A of its child
-  double child_x = 0.0;       ///< where on its x axis the child's joint is, [m]
+  double child_x = 0.0;       ///< place of the child's joint on its x axis, [m]
 };
 
 /// A [r]x

@@ -16,7 +16,7 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// A load on a body, all in W.
 template <typename T>
 struct BodyLoadForce {
-  Vec3<T> p;              ///< where it acts, [m]
+  Vec3<T> p;              ///< point of action, [m]
   Vec3<T> force, moment;  ///< [N], [N m] about p
   T power{};              ///< [W]
 };

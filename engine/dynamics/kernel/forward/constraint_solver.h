@@ -16,7 +16,7 @@ namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
 /// An ideal cut joint: its rows' residuals, and where its reaction acts.
-struct LoopJoint {
+struct IdealCutJoint {
   JointResidual<double, double> residual;
   Mat3<double> R_b;                       ///< of the bearing
   Vec3<double> bearing_offset,
@@ -82,7 +82,7 @@ class ConstraintSolver {
   ConstraintResiduals<PerRow<double>> rows;
   std::conditional_t<Topology::is_static, StaticRows, DynamicRows> dynamic_rows;
   PerRow<double> lambda;                                 ///< multipliers of the last solve() of the caller
-  typename Topology::template PerCutJoint<LoopJoint> joints;  ///< ideal cut joints
+  typename Topology::template PerCutJoint<IdealCutJoint> joints;  ///< ideal cut joints
 
   /// Assembles and factors the Delassus matrix, and solves for the multipliers of a motion. False if the
   /// matrix is singular.
@@ -97,7 +97,7 @@ class ConstraintSolver {
     return true;
   }
 
-  /// Whether a loop has opened. Redundant rows give no singular matrix that would tell.
+  /// @returns whether a loop has opened. Redundant rows give no singular matrix that would tell.
   [[nodiscard]] RPSUP_INLINE bool is_torn_apart() const {
     constexpr double kTorn = 1e-2;  // [m] or [1]
     double largest = 0.0;
@@ -182,7 +182,7 @@ class ConstraintSolver {
   RPSUP_INLINE void subtract_joint_reactions(const T* multipliers, SpatialForce<T>* bias_force) const {
     Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
-      const LoopJoint& loop = joints[k];
+      const IdealCutJoint& loop = joints[k];
       const JointReaction<T> reaction =
           calc_joint_reaction(joint.rows, loop.residual, loop.R_b, multipliers + joint.data().first_row);
       if (joint.journal_joint >= 0) {
@@ -227,7 +227,7 @@ class ConstraintSolver {
                                                  T* residual) const {
     Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
-      const LoopJoint& loop = joints[k];
+      const IdealCutJoint& loop = joints[k];
       const SpatialAcceleration<T> b =
           acceleration_at(accelerations, joint.bearing_joint, loop.bearing_offset);
       const SpatialAcceleration<T> j =

@@ -69,7 +69,7 @@ class FullRankDelassus {
 ///     w_r = 1 / sqrt(largest A_ss of the rows s of the same joint and kind)
 ///
 /// which is the proximal point iteration (J. Carpentier, R. Budhiraja, N. Mansard, 2021). Its first step
-/// alone is Tikhonov's solution, whose limit for e -> 0 is the minimum-norm one. A mechanism so passes
+/// alone is Tikhonov's solution, whose limit for e -> 0 is the minimum-norm one. So a mechanism passes
 /// positions in which it gains a freedom for an instant: there rows of a joint, all with one weight, fade
 /// together. Inactive rows, which no coordinate moves (those out of the plane of a flat mechanism), are left
 /// out, and where the rest is independent, S is factored as it is.
@@ -214,7 +214,7 @@ class DelassusMatrix {
       for (int l = 0; l <= k; ++l) matrix[k * n + l] *= weight[k] * weight[l];
   }
 
-  /// G_ <- Phi_q D Phi_q^T, weighed as S, where D divides each column by the square of its largest entry:
+  /// G_ <- Phi_q V Phi_q^T, weighed as S, where V divides each column by the square of its largest entry:
   /// the Delassus matrix if M were diagonal, with these squares.
   RPSUP_INLINE void calc_geometry(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
     const int n = active_count_;
@@ -231,8 +231,8 @@ class DelassusMatrix {
     weigh(G_, weight_of_G_);
   }
 
-  /// Whether the active rows are independent, far from a change point. That is one of the geometry, G: light
-  /// links among heavy ones give S small eigenvalues in any position.
+  /// @returns whether the active rows are independent, far from a change point. That is one of the geometry,
+  /// G: light links among heavy ones give S small eigenvalues in any position.
   RPSUP_INLINE bool are_independent(const ConstraintJacobian& jacobian, const std::vector<int>& free) {
     const int n = active_count_;
     // The least eigenvalue of a chain of loops can be smaller than the least pivot by a factor of n^2.

@@ -215,7 +215,7 @@ class ForwardDynamics {
     Topology::for_each_cut_joint(model_, [&](std::size_t k, const auto& joint) RPSUP_INLINE_LAMBDA {
       if (joint.has_clearance()) return;
       const Frame<double, double>&b = cuts[k].b, &j = cuts[k].j;
-      LoopJoint& loop = constraints.joints[k];
+      IdealCutJoint& loop = constraints.joints[k];
       loop.residual = calc_joint_residual(joint.rows, b, j);
       loop.R_b = b.R;
       loop.bearing_offset = bearing_point(joint.rows, b, j) - frame_of(joint.bearing_joint).p;

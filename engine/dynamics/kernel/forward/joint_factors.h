@@ -116,8 +116,9 @@ RPSUP_INLINE void calc_euler_accelerations(const JointAxes& axes, Vec3<T> relati
   qdd[2] = motion->qdd_bias[2] + qdd[2];
 }
 
-/// A spherical joint, its three rotations at once, whatever their axes: Eq. (K8). The unknown is the body's
-/// angular acceleration, so that H = (0; 1), U = (C; J) and D = J. Nothing but a force passes to the parent.
+/// A spherical joint, its three rotations at once, whatever their axes: Eq. (K8). The unknown is alpha -
+/// alpha', so that H = (0; 1), U = (C; J) and D = J. alpha' cancels: alpha itself results. Nothing but a
+/// force passes to the parent.
 struct SphericalFactor {
   Mat3<double> C;
   Sym3<double> J_inverse;
@@ -172,7 +173,7 @@ struct SphericalFactor {
 /// D_xx and that of y and z, and C x = 0. So U and J need not be assembled.
 struct SlenderBodyFactor {
   Mat3<double> R;
-  Vec3<double> gain_y, gain_z;  ///< columns y and z of U_a D^-1
+  Vec3<double> U_D_inverse_y, U_D_inverse_z;  ///< columns y and z of U_a D^-1
   double D_inverse_xx, D_inverse_yy, D_inverse_yz, D_inverse_zz;
 
   /// @returns whether D is positive definite
@@ -198,7 +199,7 @@ struct SlenderBodyFactor {
     u.z -= dot(R.y, first_moment);
     local = {D_inverse_xx * u.x, D_inverse_yy * u.y + D_inverse_yz * u.z,
              D_inverse_yz * u.y + D_inverse_zz * u.z};
-    force.force += u.y * gain_y + u.z * gain_z;
+    force.force += u.y * U_D_inverse_y + u.z * U_D_inverse_z;
     force.moment = moment;
   }
 
@@ -208,8 +209,8 @@ struct SlenderBodyFactor {
                                              const Qdd& qdd) const {
     Vec3<T> alpha = local;
     if (joint.parent_moves) {
-      alpha.y -= dot(gain_y, a.linear);
-      alpha.z -= dot(gain_z, a.linear);
+      alpha.y -= dot(U_D_inverse_y, a.linear);
+      alpha.z -= dot(U_D_inverse_z, a.linear);
     }
     alpha = R * alpha;
     if constexpr (kWanted<Qdd, T>) calc_euler_accelerations(axes, alpha - a.angular, motion, qdd);
@@ -235,11 +236,11 @@ struct SlenderBodyFactor {
     D_inverse_yy = inverse * D_zz;
     D_inverse_yz = inverse * minus_D_yz;
     D_inverse_zz = inverse * D_yy;
-    gain_y = D_inverse_yz * B_y - D_inverse_yy * B_z;
-    gain_z = D_inverse_zz * B_y - D_inverse_yz * B_z;
+    U_D_inverse_y = D_inverse_yz * B_y - D_inverse_yy * B_z;
+    U_D_inverse_z = D_inverse_zz * B_y - D_inverse_yz * B_z;
     if (joint.parent_moves) {
-      add_half_outer(inertia.A, gain_y, B_z);
-      add_half_outer(inertia.A, -gain_z, B_y);
+      add_half_outer(inertia.A, U_D_inverse_y, B_z);
+      add_half_outer(inertia.A, -U_D_inverse_z, B_y);
     }
     return determinant;
   }
@@ -251,8 +252,8 @@ struct SlenderBodyFactor {
     D_inverse_yy = D_inverse_zz = 1.0 / I_y;
     D_inverse_yz = 0.0;
     const double scaled = mc * D_inverse_yy;
-    gain_y = -scaled * R.z;
-    gain_z = scaled * R.y;
+    U_D_inverse_y = -scaled * R.z;
+    U_D_inverse_z = scaled * R.y;
     if (joint.parent_moves) {  // y y^T + z z^T = 1 - x x^T
       const double across = mc * scaled;
       inertia.A.xx -= across;

@@ -10,14 +10,14 @@ inline namespace RPSUP_INSTRUCTION_SET {
 
 /// Bias motion of a slender body (see complete_traits()) at a spherical joint, in W.
 ///
-/// For every other body, the frame's wd is the bias angular acceleration: the velocity products of the chain
-/// up to the frame. A spherical joint leaves its body's angular acceleration free, whatever the bias. So that
-/// of a slender body is measured from zero: its frame has wd = 0, which leaves less to compute. The angles'
-/// accelerations make up for the bias by wd_bias and qdd_bias, Eq. (K10). The bias of an ideal cut joint's
-/// rows is without the same part, and the body's SpatialAcceleration, which is its whole angular
-/// acceleration, brings it in.
+/// For every other body, the frame's wd is the bias angular acceleration: velocity products and driven
+/// accelerations of the chain up to the frame. A spherical joint leaves its body's angular acceleration free,
+/// whatever the bias. So that of a slender body is measured from zero: its frame has wd = 0, which leaves
+/// less to compute. The angles' accelerations make up for the bias by wd_bias and qdd_bias, Eq. (K10). The
+/// bias of an ideal cut joint's rows is without the same part, and the body's SpatialAcceleration, which is
+/// its whole angular acceleration, brings it in.
 struct SlenderBodyMotion {
-  Vec3<double> x_d, x_dd;     ///< bias velocity and acceleration of the unit vector x: w x x, w x (w x x)
+  Vec3<double> x_d, x_dd;  ///< velocity of the unit vector x, w x x, and its bias acceleration, w x (w x x)
   Vec3<double> first_moment;  ///< L = mc vd: the moment x x L is not in the body's bias force
   Vec3<double> wd_bias;       ///< w_parent x w; and wd of a parent that is no slender body
   double qdd_bias[3];         ///< the angles' accelerations by the velocity products of their axes
@@ -45,8 +45,8 @@ RPSUP_INLINE void calc_slender_frame(const Joint& joint, const SlenderBodyMotion
   rotate_spherical(joint.parent_frame_rotates, sines, cosines, qd, f, axes);
   f.wd = {};
   motion.wd_bias = joint.parent_frame_rotates ? parent_wd + cross(parent_w, f.w) : Vec3<double>{};
-  // -(q0' q1' cross(z, y) + q1' q2' cross(y, x) + q0' q2' cross(z, x)), of the axes z, y and x as they stand,
-  // in the basis reciprocal to them.
+  // Components along the axes z, y and x as they stand, by the reciprocal basis, of
+  // -(qd0 qd1 cross(z, y) + qd1 qd2 cross(y, x) + qd0 qd2 cross(z, x)).
   const double zy = qd[0] * qd[1], yx = qd[1] * qd[2], inverse = 1.0 / cosines[1];
   motion.qdd_bias[0] = inverse * (zy * sines[1] + yx);
   motion.qdd_bias[1] = -(qd[0] * qd[2]) * cosines[1];

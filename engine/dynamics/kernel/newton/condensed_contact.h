@@ -89,8 +89,9 @@ class CondensedContact {
 
   /// Writes the acting bristles into z, after start().
   RPSUP_INLINE void finish(const JournalTangent_b<Scalar>& xi, NumbersAt<Scalar> z) {
-    const Scalar numbers[kJournal] = {xi.rotation.x, xi.rotation.y, xi.rotation.z, xi.p.x, xi.p.y, xi.p.z,
-                                      xi.v.x,        xi.v.y,        xi.v.z,        xi.w.x, xi.w.y, xi.w.z};
+    const Scalar numbers[kJournal] = {xi.rotation.x, xi.rotation.y, xi.rotation.z, xi.offset.x,
+                                      xi.offset.y,   xi.offset.z,   xi.v.x,        xi.v.y,
+                                      xi.v.z,        xi.w.x,        xi.w.y,        xi.w.z};
     const NumbersAt<Scalar> z_free = z_.first();
     const RowsAt<Scalar> response = response_.rows(stride_);
     for (int i = 0; i < acting_.count; i += RowLanes::kCount) {

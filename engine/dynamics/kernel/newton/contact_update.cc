@@ -21,7 +21,7 @@ constexpr std::size_t kLanes = Lanes::kCount;
 /// One of the twelve numbers of a journal's tangent.
 template <typename T>
 [[nodiscard]] RPSUP_INLINE T& number_of(JournalTangent_b<T>& xi, std::size_t k) {
-  Vec3<T>& v = k < 3 ? xi.rotation : k < 6 ? xi.p : k < 9 ? xi.v : xi.w;
+  Vec3<T>& v = k < 3 ? xi.rotation : k < 6 ? xi.offset : k < 9 ? xi.v : xi.w;
   return k % 3 == 0 ? v.x : k % 3 == 1 ? v.y : v.z;
 }
 
@@ -85,7 +85,7 @@ void ContactUpdate<Scalar>::assemble_capacitance(const Tree& tree, std::size_t p
          ++column)
       number_of(xi, column - t * kJournal) = unit<Scalar, Lanes::kCount>(static_cast<int>(column - first));
     const Mat3<double>& R = contact.cut.b.R;
-    add_contact_force<Pack8>(tree, contact, R * xi.rotation, R * xi.p, contact.condensed.apply(xi),
+    add_contact_force<Pack8>(tree, contact, R * xi.rotation, R * xi.offset, contact.condensed.apply(xi),
                              pack_work_);
   }
   tree.solve(pack_work_);

@@ -31,10 +31,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///     T_0 x = b + F xi,   xi = G x   =>   (1 - G T_0^-1 F) xi = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 F xi
 ///
 /// where F xi is the right-hand side by the loads (K20) on the bodies with the condensed contact (K32), G is
-/// (K19), and
-/// 1 - G T_0^-1 F is the capacitance matrix of Woodbury's identity. It loses digits where a contact is
-/// stiffer than all that moves without it. Source: G. H. Golub, C. F. Van Loan, Matrix Computations,
-/// section 2.1 (Sherman-Morrison-Woodbury formula).
+/// (K19), and 1 - G T_0^-1 F is the capacitance matrix of Woodbury's identity. It loses digits where a
+/// contact is stiffer than all that moves without it. Source: G. H. Golub, C. F. Van Loan, Matrix
+/// Computations, section 2.1 (Sherman-Morrison-Woodbury formula).
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>
 class ContactUpdate {

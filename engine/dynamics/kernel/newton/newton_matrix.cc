@@ -356,7 +356,7 @@ RPSUP_INLINE void NewtonMatrix<Scalar>::solve_sized(const Sizes& size, NumbersAt
     return add_by_z(size, sum, by_z + row, pairs, bristle.row(0), bristle.row(1));
   };
   for (int i = 0; i < size.n; i += kRowLanes)
-    rhs.store(i, add_rhs(collect(rates, i), i));  // what lies behind the rates is multiplied by zeros only
+    rhs.store(i, add_rhs(collect(rates, i), i));  // numbers behind the rates are multiplied by zeros only
   solve_lu(size, rhs, v);
   for (int k = 0; k < works; k += kRowLanes) {
     WideScalar sum = add_rhs(widen(Scalar{}), size.rows + k);

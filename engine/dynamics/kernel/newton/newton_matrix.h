@@ -12,13 +12,14 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// to a dense matrix of the free rates and factored. (SUNDIALS calls gamma (sigma 1 - J) M, SciML W.) The
 /// shift sigma is real or complex.
 ///
-/// With the right-hand side b = (b_q, b_v, b_z, b_w), the blocks a = (by_q, by_v, by_z) of accelerations, of
-/// the bristles' rates (subscript z) and of powers (subscript w), and K = by_v + by_q / sigma, the block
-/// elimination is, Eqs. (K24) to (K27):
+/// b = (b_q, b_v, b_z, b_w) is the right-hand side; by_q, by_v and by_z are the blocks of accelerations and
+/// powers together, rates_by_q, rates_by_v and E those of the bristles' rates. The block elimination is, Eqs.
+/// (K24) to (K27):
 ///
-///     E = by_z of the bristles' rates,  response = (sigma 1 - E)^-1 K_z                              (K25)
-///     z_free = (sigma 1 - E)^-1 (b_z + by_q b_q / sigma)                                             (K25)
-///     condensed = K + by_z response,  rhs = (b_v, 0) + by_q b_q / sigma + by_z z_free                (K26)
+///     response = (sigma 1 - E)^-1 (rates_by_v + rates_by_q / sigma)                                  (K25)
+///     z_free = (sigma 1 - E)^-1 (b_z + rates_by_q b_q / sigma)                                       (K25)
+///     condensed = by_v + by_q / sigma + by_z response                                                (K26)
+///     rhs = (b_v, 0) + by_q b_q / sigma + by_z z_free                                                (K26)
 ///     (sigma 1 - condensed_v) v = rhs_v                                                              (K26)
 ///     q = (b_q + v) / sigma,  z = z_free + response v,  w = (b_w + rhs_w + condensed_w v) / sigma    (K27)
 ///
@@ -61,7 +62,7 @@ class NewtonMatrix {
   NumberRows<Scalar> bristle_inverse_;   ///< (sigma 1 - E)^-1 of each pair: rows as rates_by_bristle
   /// rows 2 j and 2 j + 1: of the first and second bristles to the free rate j
   NumberRows<Scalar> bristle_response_;
-  /// L, stored by columns: row(k) is column k. Before factor_lu(): the condensed matrix
+  /// L, stored by columns: row(k) is column k. Before factor_lu(): sigma 1 - condensed_v
   NumberRows<Scalar> lower_;
   NumberRows<Scalar> upper_;         ///< U, stored by columns: row(k) is column k, divided by its pivot u_kk
   NumberRows<Scalar> condensed_w_;   ///< stored by columns

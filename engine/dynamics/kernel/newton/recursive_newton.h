@@ -18,8 +18,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Whether RecursiveNewtonSolver can solve a mechanism's Newton systems: it knows neither constraints nor
-/// point springs, applied forces, body loads, armatures.
+/// @returns whether RecursiveNewtonSolver can solve a mechanism's Newton systems: it knows no constraints,
+/// point springs, applied forces, body loads or armatures
 [[nodiscard]] inline bool fits_recursive_solver(const TreeModel& model) {
   const bool has_armature = std::ranges::any_of(
       model.joints, [](const TreeJoint& joint) { return joint.armature != 0.0; });

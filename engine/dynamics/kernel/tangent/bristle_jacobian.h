@@ -57,8 +57,8 @@ class BristleJacobian {
   RPSUP_INLINE void store_journal_tangents(int chunk, const JournalTangent_b<TangentPack>* journals) {
     for (std::size_t joint = 0; joint < joint_count_; ++joint) {
       std::size_t row = 0;
-      const Vec3<TangentPack>* vectors[] = {&journals[joint].rotation, &journals[joint].p, &journals[joint].v,
-                                            &journals[joint].w};
+      const Vec3<TangentPack>* vectors[] = {&journals[joint].rotation, &journals[joint].offset,
+                                            &journals[joint].v, &journals[joint].w};
       double* to =
           &journals_[joint * kJournal * columns_ + chunk * TangentPack::kCount];
       for (const Vec3<TangentPack>* vector : vectors)
@@ -122,7 +122,7 @@ class BristleJacobian {
   template <typename Pack>
   struct RateRows {
     [[nodiscard]] RPSUP_INLINE Pack apply(const JournalTangent_b<double>& journal) const {
-      return dot3(0, journal.rotation) + dot3(3, journal.p) + dot3(6, journal.v) + dot3(9, journal.w);
+      return dot3(0, journal.rotation) + dot3(3, journal.offset) + dot3(6, journal.v) + dot3(9, journal.w);
     }
     [[nodiscard]] RPSUP_INLINE Pack dot3(int first, const Vec3<double>& v) const {
       return by[first] * v.x + by[first + 1] * v.y + by[first + 2] * v.z;

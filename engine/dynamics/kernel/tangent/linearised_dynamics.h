@@ -125,7 +125,7 @@ class LinearisedDynamics {
     const SignalPoint& law = applied_.body_loads[k];
     const BodyLoadForce<TangentDual> tangent =
         calc_body_load(load, inertial_frame(load.joint), TangentDual(law.value, law.slope * time));
-    add_load_tangent(load.joint, tangent.p, tangent.force, tangent.moment);
+    subtract_load_tangent(load.joint, tangent.p, tangent.force, tangent.moment);
     body_load_power[k] = tangent.power.d;
   }
 
@@ -133,8 +133,8 @@ class LinearisedDynamics {
     if (is_inactive(spring.from_joint) && is_inactive(spring.to_joint)) return;
     const PointSpringForce<TangentDual> spring_force =
         calc_point_spring_force(spring, inertial_frame(spring.from_joint), inertial_frame(spring.to_joint));
-    add_load_tangent(spring.to_joint, spring_force.to, spring_force.force, {});
-    add_load_tangent(spring.from_joint, spring_force.from, -spring_force.force, {});
+    subtract_load_tangent(spring.to_joint, spring_force.to, spring_force.force, {});
+    subtract_load_tangent(spring.from_joint, spring_force.from, -spring_force.force, {});
     losses.structural += spring_force.loss.d;
   }
 
@@ -184,8 +184,9 @@ class LinearisedDynamics {
                              (model_.beta * model_.beta) * residual.Phi[r].d);
     const JointReaction<TangentDual> reaction =
         calc_joint_reaction(joint.rows, residual, b.R, dynamics_.constraints.lambda.data() + first);
-    add_load_tangent(joint.journal_joint, j.p, reaction.force, reaction.moment);
-    add_load_tangent(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force, -reaction.moment);
+    subtract_load_tangent(joint.journal_joint, j.p, reaction.force, reaction.moment);
+    subtract_load_tangent(joint.bearing_joint, bearing_point(joint.rows, b, j), -reaction.force,
+                          -reaction.moment);
   }
 
   [[nodiscard]] RPSUP_INLINE const FrameTangent<TangentPack>& tangent_of(int joint) const {
@@ -196,10 +197,9 @@ class LinearisedDynamics {
                                 joint < 0 ? point_.ground : point_.nominal[joint], tangent_of(joint));
   }
 
-  /// Subtracts the load on a joint's body of a force at p, with a moment about p, given with inertial
-  /// tangents.
-  RPSUP_INLINE void add_load_tangent(int joint, const Vec3<TangentDual>& p, const Vec3<TangentDual>& force,
-                                     const Vec3<TangentDual>& moment) {
+  /// Subtracts from a body's bias force the load of a force at p and a moment about p, in inertial tangents.
+  RPSUP_INLINE void subtract_load_tangent(int joint, const Vec3<TangentDual>& p,
+                                          const Vec3<TangentDual>& force, const Vec3<TangentDual>& moment) {
     if (joint < 0) return;
     const FrameTangent<TangentPack>& f = tangent_of(joint);
     const Vec3<TangentDual> origin = join(dynamics_.frames[joint].p, f.translation);

@@ -16,7 +16,7 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// Where an operating point is in memory, for readers that do not know its topology.
+/// Addresses of the parts of an operating point, for readers that do not know its topology.
 struct OperatingPointView {
   const Frame<double, double>* frames;           ///< one a joint
   const JointAxes* axes;                         ///< one a joint

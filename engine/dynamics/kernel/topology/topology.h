@@ -112,7 +112,8 @@ struct DynamicTopology {
   }
 };
 
-/// Whether a joint has the traits of a static one. It may lack those whose numbers may be zero.
+/// @returns whether a joint has the traits of a static one. The joint may lack traits whose numbers may be
+/// zero.
 [[nodiscard]] inline bool fits_traits(JointTraits given, const JointTraits& wanted) {
   given.has_armature |= wanted.has_armature;
   given.sprung |= wanted.sprung;
@@ -142,7 +143,7 @@ struct StaticTopology {
       static_cast<std::size_t>(std::ranges::count_if(joints, &JointTraits::driven));
   static constexpr bool has_point_springs = false;
   static constexpr bool has_constraints = !clearance;
-  static constexpr bool has_applied_forces = n_drives < 2;  ///< what is not driven has an actuator
+  static constexpr bool has_applied_forces = n_drives < 2;  ///< crank or rod without a drive has an actuator
   static constexpr bool is_static = true;
   template <typename T>
   using PerJoint = FixedBuffer<T, n>;
