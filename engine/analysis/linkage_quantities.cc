@@ -123,7 +123,7 @@ void LinkageQuantities::add_peak(const std::string& stem, const std::string& uni
                                  double scale, const std::function<Peak(const RunMetrics&)>& find) {
   add_metric({.key = stem + unit, .help = std::move(help)},
              [=](const RunMetrics& metrics, const auto&) { return scale * find(metrics).magnitude; });
-  add_metric({.key = stem + "_time_s", .help = "Time of " + stem + unit},
+  add_metric({.key = stem + "_time_s", .help = "Time of " + stem},
              [=](const RunMetrics& metrics, const auto&) { return time_of(find(metrics)); });
 }
 
