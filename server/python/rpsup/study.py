@@ -149,7 +149,7 @@ class Job(Work):
         return self.client.columns(f"{self.path}/{name}", query, frame)
 
 
-class Study(Work):
+class JobSet(Work):
     """A set of jobs with a table of results."""
 
     def retry(self) -> Row:
@@ -172,6 +172,10 @@ class Study(Work):
             NAME, NAME_gt, NAME_ge, NAME_lt, NAME_le: value of a column that rows must have, or its bound.
         """
         return self._table("results", query)
+
+
+class Study(JobSet):
+    """A set of jobs that grows as its results ask for more."""
 
 
 class Search(Study):

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
-from .study import Job, Names, Number, Row, Study, Text
+from .study import Job, JobSet, Names, Number, Row, Text
 from .table import DataFrame
 
 SUFFIXES = {"h5": "h5", "hdf5": "h5", "npz": "npz", "mat": "mat"}
 MAKING_S = 600.0  # until the first byte of a file of trajectories: the service makes it first
 
 
-class Sweep(Study):
+class Sweep(JobSet):
     """A set of jobs over lists of values."""
 
     route = "/v1/sweeps"
