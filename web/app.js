@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows the view that the address names, and gives it up when the address changes.
-import { findHealth, isAway } from "/core/api.js";
+import { findHealth, isUnreachable } from "/core/api.js";
 import { startDefinitions } from "/core/definition.js";
 import { readRoute } from "/core/route.js";
 import { h, part } from "/core/dom.js";
-import { pause, persist } from "/core/live.js";
+import { pause, retryWhileUnreachable } from "/core/live.js";
 import { Missing, loadModule, nextWait, tryAgain } from "/core/modules.js";
 import { startTheme } from "/core/theme.js";
 
@@ -53,7 +53,7 @@ async function load(kind, signal) {
 /// Resolves once the service answers. @throws an AbortError when the signal is given
 async function whenBack(signal) {
   await pause(againMs, signal);
-  await persist(() => findHealth(signal), () => {}, signal);
+  await retryWhileUnreachable(() => findHealth(signal), () => {}, signal);
 }
 
 /// Shows why there is no view. @param more  elements that help
@@ -89,7 +89,7 @@ async function show() {
   } catch (error) {
     if (number !== shown || error.name === "AbortError") return;
     if (error instanceof Missing) sayMissing(error, ended.signal);
-    else if (isAway(error)) {
+    else if (isUnreachable(error)) {
       say(`${error.message} Trying again …`);
       whenBack(ended.signal).then(() => (page ? show() : location.reload()), () => {});
     } else say(error.message);

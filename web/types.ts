@@ -46,6 +46,9 @@ declare namespace Api {
   type Job = Omit<Get<"/v1/jobs/{id}">, "parameters"> & { parameters: Parameters };
   type DescribedLinkage = Exclude<Parameters["linkage"], string>;
   type DescribedJoint = DescribedLinkage["joints"][string];
+  /** Keys of a described linkage whose values are parts by their names. */
+  type PartsOfLinkage = { [Key in keyof DescribedLinkage]-?:
+    string extends keyof NonNullable<DescribedLinkage[Key]> ? Key : never }[keyof DescribedLinkage];
   type BodyLoad = NonNullable<DescribedLinkage["loads"]>[string];
   /** A row of results that was asked for without "fields"; values of axes and metrics by their names. */
   type Row = Required<Pick<Schemas["ResultRow"], "job_id" | "state">>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page of a sweep draws and says of rows that no short sweep has: nearly equal, missing, decades apart.   node charts.mjs URL FOLDER
+// The page of a sweep with rows that no short sweep has: nearly equal, missing, decades apart.
+//   node charts.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
@@ -167,7 +168,7 @@ test("no line leads across a value that is missing", async () => {
   await page.getByText("2 lines end early, where the job has no further values. 1 job with a gap between values is left out.").waitFor();
   assert.deepEqual((await drawn(page, 1)).titles, ["2 computed jobs without a value: the table says why."]);
   assert.deepEqual((await drawn(page, 1)).series[0], [[0, 1], [0.1, 2], [0.2, "-"], [0.3, "-"], [0.4, 4]]);
-  // What stands for a missing number stands where the numbers do, below their heading.
+  // The sign for a missing number stands where the numbers do, below their heading.
   const looks = await page.locator("table").evaluate((table) => [...table.rows].map(({ cells }) => [...cells].at(-1)).map((cell) => [cell.textContent, getComputedStyle(cell).textAlign]));
   assert.deepEqual(looks, ["Peak contact force [N]", "–", "10", "20", "–", "20"].map((text) => [text, "right"]));
   await picture(page, "gaps", { fullPage: true });
@@ -211,7 +212,7 @@ test("the table says why jobs failed", async () => {
 test("the table says why jobs failed although the service was away, and anew when they have been retried", async () => {
   const rows = [{ job_id: "job_1", state: "failed", clearance_mm: 0.2, [metric]: null }];
   const failures = [{ job_id: "job_1", error_reason: "step_limit", error_detail: "too many steps" }];
-  const page = await visitRows(["clearance_mm"], rows, { failures, isAway: true });
+  const page = await visitRows(["clearance_mm"], rows, { failures, isUnreachable: true });
   await page.getByText("The service does not answer. Trying again …").waitFor();
   await page.unroute(reasons);
   await page.getByRole("cell", { name: "failed: step_limit too many steps" }).waitFor();

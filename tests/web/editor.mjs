@@ -12,7 +12,7 @@ const shown = async (page) => JSON.parse(await page.locator("aside pre").first()
 const change = async (page, from, to) => text(page).fill((await text(page).inputValue()).replace(from, to));
 const refused = /422/;
 
-/** What is drawn, as the colours of some points of the canvas. */
+/** Picture on the canvas. */
 const pixels = (page) => page.locator(".preview canvas").evaluate((canvas) => canvas.toDataURL());
 
 test("a linkage stands beside its text, and its parts are found in the text", async () => {
@@ -73,9 +73,12 @@ test("a linkage typed into an empty form is drawn, and what RPSUP alone has is n
   const page = await visit("#/new");
   await page.getByLabel("Crank velocity", { exact: true }).fill("12");
   await page.getByText("Custom linkage", { exact: true }).click();
-  await text(page).fill('{"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}}, "joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob"}}}');
+  await text(page).fill('{"bodies": {"bob": {"mass_kg": 1, "centre_of_mass_m": [0.5, 0, 0]}}, '
+    + '"joints": {"pivot": {"kind": "revolute", "from": "ground", "to": "bob"}}, '
+    + '"accelerometers": {"tip": {"body": "bob", "direction": [1, 0, 0]}}}');
   await page.locator(".preview[data-bodies='1'] canvas").waitFor();
   await page.getByText("Assembled at t = 0. Degrees of freedom without a drive, those of play and bending among them: 1.").waitFor();
+  await page.getByText("tip on bob").waitFor();
   assert.deepEqual(Object.keys((await shown(page)).parameters), ["linkage"]);
   // Without a joint with clearance there is no contact.
   assert.ok(await page.locator('[data-path="restitution"]').isHidden());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people type into a form: empty and faulty fields, decimal commas, units of entry.   node form.mjs URL FOLDER
+// Text that people type into a form: empty and faulty fields, decimal commas, units of entry.
+//   node form.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
@@ -62,7 +63,7 @@ test("velocities are entered in rpm and angles in degrees", async () => {
   const velocity = page.getByLabel("Crank velocity", { exact: true });
   await velocity.fill("30");
   await page.getByLabel("Crank velocity: unit").selectOption("rpm");
-  // What stood there keeps its meaning: 30 rad/s are 900/π rpm.
+  // The number in the field keeps its meaning: 30 rad/s are 900/π rpm.
   assert.ok(Math.abs(Number(await velocity.inputValue()) * Math.PI / 900 - 1) < 1e-10);
   assert.equal((await shown(page)).parameters.crank_velocity_rad_s, 30);
   await velocity.fill("120");

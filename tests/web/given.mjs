@@ -8,10 +8,10 @@ export const force = "peak_contact_force_n";
 /** A row of a job that was computed. */
 export const row = (number, values) => ({ job_id: `job_${number}`, state: "succeeded", ...values });
 
-/** What asks why jobs have failed. */
+/** Address of the question why jobs have failed. */
 export const reasons = "**/v1/sweeps/swp_given/results?state=failed**";
 
-/** How the paper's seven statements, and one without a number, stand over so many settings. */
+/** Rows of the paper's seven statements, and of one without a number, over so many settings. */
 export function paperRows(settings) {
   const holds = (number) => settings === 1 && number !== 3;
   const found = (number) => (number === 5 ? { settings: 0, share: null, holds: null, found_least: null, found_largest: null }
@@ -23,7 +23,8 @@ export function paperRows(settings) {
 }
 
 /** The page of a sweep that the service does not have. @param told  how it is looked at, the parameters of all jobs, rows of failures, more of the sweep, the window's width */
-export async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {}, width = 1360, isSchemaGone = false, isAway = false } = {}) {
+export async function visitRows(axes, rows, { query = "", parameters = {}, failures = [], more = {},
+  width = 1360, isSchemaGone = false, isUnreachable = false } = {}) {
   const page = await visit("#/wear", { viewport: { width, height: 1000 } });
   if (isSchemaGone) await page.route("**/v1/parameters", (route) => route.abort());
   const count = (state) => rows.filter((each) => each.state === state).length;
@@ -34,13 +35,13 @@ export async function visitRows(axes, rows, { query = "", parameters = {}, failu
   await give("**/v1/sweeps/swp_given/paper**", () => paperRows(1));
   await give("**/v1/jobs/*", () => ({ run: null }));
   await give("**/v1/sweeps/swp_given/results**", ({ searchParams }) => (searchParams.has("state") ? failures : rows));
-  if (isAway) await page.route(reasons, (route) => route.abort());
+  if (isUnreachable) await page.route(reasons, (route) => route.abort());
   await page.evaluate((view) => { location.hash = view; }, `#/sweeps/swp_given${query}`);
   await page.locator(".chart canvas").nth(2).waitFor();
   return page;
 }
 
-/** What ECharts has made of a chart: the ends of its axes, its title, and the numbers of its lines. */
+/** A chart as ECharts holds it: the ends of its axes, its title, and the numbers of its lines. */
 export function drawn(page, place) {
   return page.locator(".chart").nth(place).evaluate(async (element) => {
     const { getInstanceByDom } = await (await import("/core/charts.js")).loadCharts();

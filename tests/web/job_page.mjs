@@ -322,8 +322,9 @@ test("a job of an older program is drawn as it was computed", async () => {
   await leave(page);
 });
 
-/** What the 3-D view makes of a job: how far its moving places come from the middle of the first look (1: the picture's edge), how far the slider is from the
-    guide's bar [m], and by which angle the close-up looks past the bearing's axis [rad]. */
+/** Measures of the 3-D view of a job: the distances of its moving places from the middle of the first look
+    (1: the picture's edge), that of the slider from the guide's bar [m], and the angle by which the close-up
+    looks past the bearing's axis [rad]. */
 function seenOf(page, job, columns, aspect) {
   return page.evaluate(async ({ parameters, poses, ratio }) => {
     const [{ loadThree }, { Stage }, { Linkage }, { shownOf }] = await Promise.all(["three", "stage", "linkage", "scene_card"].map((name) => import(`/scene/${name}.js`)));
@@ -471,7 +472,7 @@ test("the force on the journal is an arrow, whose scale the legend tells", async
   assert.ok(Math.abs(first * 1.5 / metrics.peak_joint_reaction_n - 1) < 0.01, `${first} N`);
   await page.getByLabel("Force scale").selectOption("10");
   assert.ok(Math.abs(await told() * 10 / first - 1) < 0.01);
-  // What is drawn is the force at the instant.
+  // The arrow is the force at the instant.
   const columns = ["reaction_x_n", "reaction_y_n", "reaction_z_n"];
   const found = await ask(`/v1/jobs/${id}/trajectory?channels=t_s,${columns}`);
   const row = 250;

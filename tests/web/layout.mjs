@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where things stand: panels and their titles, frames, round circles, ends of axes, the header, wide windows.   node layout.mjs URL FOLDER
+// Places of parts: panels and their titles, frames, round circles, ends of axes, the header, wide windows.
+//   node layout.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 

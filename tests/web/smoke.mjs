@@ -115,7 +115,7 @@ test("a sweep is counted, and told what it costs and what is stored of it, befor
   await clearance.fill("0.25; 0.3; 0.35");
   await page.getByText("3 jobs", { exact: true }).waitFor();
   await page.getByText(/^1 stored already, 2 to compute\. .* are free\. At most [\d,]+ at once\.$/).waitFor();
-  // What a submission would be refused for is told at its field.
+  // The reason why a submission would be refused is told at its field.
   await clearance.fill("0.25; 6");
   await page.locator('[data-path="clearance_mm"] .trouble').getByText(/\w/).waitFor();
   await page.getByRole("alert").getByText("/clearance_mm").waitFor();
@@ -465,7 +465,7 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   await page.getByText("2 limits to find").waitFor();
   await page.getByRole("button", { name: "Submit" }).focus();
   await page.keyboard.press("Enter");
-  // What only the service refuses stands at its field, and in the list of faults.
+  // A fault that only the service finds stands at its field, and in the list of faults.
   await page.getByRole("alert").getByText("/quantile: must be").waitFor();
   const quantile = page.getByLabel("Quantile", { exact: true });
   assert.equal(await quantile.getAttribute("aria-invalid"), "true");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast the dashboard is with much to show: said, not asserted, for it is the machine's speed too.   node speed.mjs URL FOLDER
+// Speed of the dashboard with much to show. It is printed, not asserted, for it is the machine's speed too.
+//   node speed.mjs URL FOLDER
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 

@@ -126,7 +126,7 @@ test("the orbit is brushed in time, and every spike survives", async () => {
   await page.getByText("ideal linkage", { exact: true }).waitFor({ timeout: minutes });
   await page.getByLabel("Instant [s]").fill("3.618");
   await picture(page, "job", { clip: { x: 0, y: 0, width: 1360, height: 1400 }, fullPage: true });
-  // What is drawn of the whole run has the peak that the metrics tell.
+  // The curve of the whole run has the peak that the metrics tell.
   const job = await ask(`/v1/jobs/${id}`);
   const drawn = await ask(`/v1/jobs/${id}/trajectory?channels=t_s,slider_acceleration_min_m_s2,slider_acceleration_max_m_s2&points=1600`);
   const extremes = [...drawn.columns.slider_acceleration_min_m_s2, ...drawn.columns.slider_acceleration_max_m_s2].map(Math.abs);

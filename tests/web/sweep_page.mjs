@@ -66,7 +66,7 @@ test("the curves are chosen, twelve at most, and stand in the address", async ()
   assert.equal(await page.locator(".menu[open] .list input").count(), 2);
   await page.getByRole("button", { name: "Evenly spread" }).click();
   await page.waitForURL((address) => !address.href.includes("curves="));
-  // What was chosen for an axis is forgotten with it.
+  // The choices for an axis are forgotten with it.
   await page.getByLabel("Search curves").fill("");
   await box("0 mm, flexible").uncheck();
   await page.getByRole("combobox", { name: "Facet by" }).selectOption("");
@@ -102,7 +102,7 @@ test("the headlines tell the largest and the least value with their parameters, 
     "Least: 4 m/s² at 0.25 s of the run, crank velocity 4 rad/s, clearance 0 mm, coupler rigid (job …rigid)",
     "One run each: how much the values scatter is not known."]);
   assert.equal(await lines.first().getByRole("link").getAttribute("href"), "#/jobs/job_10_0.35_flexible");
-  // What the number is stands in a tooltip, as in the choice of columns.
+  // The definition of a number stands in a tooltip, as in the choice of columns.
   await lines.first().locator("strong").hover();
   await page.getByRole("tooltip").getByText("m/s²").waitFor();
   await page.getByText(/^Columns: /).click();

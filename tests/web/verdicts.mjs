@@ -50,7 +50,7 @@ test("a limit that was not exceeded says at how many values was looked, and has 
     sweep: { crank_velocity_rad_s: [8] } };
   const single = await runSearch({ name: "one run each", ...request });
   const page = await visit(`#/searches/${single.id}`);
-  await page.getByText("whose run keeps Max penetration [µm] at or below 1000").waitFor();
+  await page.getByText("before Max penetration [µm] first exceeds 1000.").waitFor();
   await page.getByText("One run at each value: how much the metric scatters is not known").waitFor();
   assert.deepEqual((await cells(page, "Limits"))[0].slice(1, 4), ["not exceeded at any of the 3 values looked at Look at more", "beyond 0.3", "3"]);
   await page.getByRole("link", { name: "Look at more" }).click();
@@ -64,7 +64,7 @@ test("a limit that was not exceeded says at how many values was looked, and has 
   await leave(page);
   const many = await runSearch({ name: "two runs each", ...request, replicates: { count: 2 } });
   const other = await visit(`#/searches/${many.id}`);
-  await other.getByText("for which at least 90 % of the replicates keep").waitFor();
+  await other.getByText("first exceeds 1000 in more than 10 % of the replicates.").waitFor();
   await other.getByRole("columnheader", { name: "OK in all up to [mm]" }).waitFor();
   assert.equal(await other.getByText("One run at each value").count(), 0);
   await leave(other);

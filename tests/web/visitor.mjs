@@ -57,7 +57,7 @@ export async function expectAccessible(page) {
 
 /** Fails if the page is wider than its window, so that it would have to be pushed about to be read. */
 export async function expectNoSideways(page) {
-  // What a phone tells as its window's width grows with what stands in it.
+  // A phone tells a window's width that grows with the content.
   const { width } = page.viewportSize();
   const content = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(content <= width, `${content} pixels wide in a window of ${width}`);
@@ -84,7 +84,7 @@ export async function runSweep(request, seconds = 300) {
 /** The rows of a sweep. */
 export const resultsOf = (sweep) => ask(`/v1/sweeps/${sweep.id}/results`);
 
-/** What a download holds. */
+/** Name and text of a download. */
 export async function textOf(page, click) {
   const [download] = await Promise.all([page.waitForEvent("download"), click()]);
   return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };

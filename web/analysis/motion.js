@@ -10,6 +10,10 @@ import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
 import { clearanceJoints, isDescribed, mainAcceleration, turningChannels } from "/run/described.js";
 
+/** @typedef {NonNullable<Api.Query<"/v1/jobs/{id}/spectrum">["window"]>} Window */
+/** @type {Record<Window, true>} */
+const windows = { hann: true, flat_top: true, rectangular: true };
+
 /// @param columns  channels that may be chosen
 /** @param {Api.Job} job  @param {string[]} columns  @param {AbortSignal} signal */
 export function motionCard(job, columns, signal) {
@@ -32,7 +36,7 @@ export function motionCard(job, columns, signal) {
 
 /** @param {Api.Job} job  @param {string[]} columns  @param {AbortSignal} signal */
 function spectrum(job, columns, signal) {
-  /** @type {{ channel: string, window: Api.Query<"/v1/jobs/{id}/spectrum">["window"] }} */
+  /** @type {{ channel: string, window: Window }} */
   const view = { channel: isDescribed(job) ? mainAcceleration(columns) : "slider_acceleration_m_s2", window: "hann" };
   let found = null;
   let chart = null;
@@ -53,7 +57,7 @@ function spectrum(job, columns, signal) {
     h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"),
       saveButtons(() => chart, () => `${job.id} spectrum`)),
     h("p", { class: "actions" }, quantityChoice("Channel", "channels", columns, view.channel, set("channel")),
-      choice("Window", ["hann", "flat_top", "rectangular"], view.window ?? "", set("window"))), trouble, drawing);
+      choice("Window", Object.keys(windows), view.window, set("window"))), trouble, drawing);
   const option = () => found
     && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 },
       tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },

@@ -12,14 +12,16 @@ export class Refusal extends Error {
   }
 }
 
-/// The service is not there, or something in front of it says so: asking again may help, as while it starts anew.
-export const isAway = (error) => error.name === "Away" || [502, 503, 504].includes(error.status);
+/// True if the service does not answer, or if something in front of it says so. Asking again may help, as
+/// while it starts anew.
+export const isUnreachable = (error) =>
+  error.name === "Unreachable" || [502, 503, 504].includes(error.status);
 
-/// There was no answer.
-class Away extends Error {
+/// The service does not answer.
+class Unreachable extends Error {
   constructor() {
     super("The service does not answer.");
-    this.name = "Away";
+    this.name = "Unreachable";
   }
 }
 
@@ -45,7 +47,7 @@ export async function ask(path, { method = "GET", body, type, signal } = {}) {
     text = await answer.text();
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new Away();
+    throw new Unreachable();
   }
   if (answer.status === 204) return null;
   if (!answer.ok) throw new Refusal(problemOf(text), answer.status);

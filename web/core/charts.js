@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes charts with ECharts, in the page's colours. The library is part of the program unless it was built without npm.
+// Makes charts with ECharts, in the page's colours.
 import { h } from "/core/dom.js";
 import { save, saveCanvas } from "/core/download.js";
+import { number } from "/core/format.js";
+import { libraryLoader } from "/core/modules.js";
 import { colour, onColours } from "/core/theme.js";
 
-let library = null;
-
 /// Loads ECharts; called early, it is there when the data are.
-export function loadCharts() {
-  library ??= import("/lib/echarts.js").catch(() => {
-    library = null;
-    throw new Error("The charts could not be loaded: the program was built without the npm packages of web/, or is "
-      + "another one since this page was loaded. Load the page again.");
-  });
-  return library;
-}
+export const loadCharts = libraryLoader("charts", () => import("/lib/echarts.js"));
 
 const disposeMs = 1000;
 let warm = null;
@@ -68,6 +61,12 @@ export function axisLook() {
   const line = { lineStyle: { color: colour("line") } };
   return { axisLine: line, axisTick: line, splitLine: line, axisLabel: { color: colour("text"), hideOverlap: true },
     nameTextStyle: { color: colour("text") } };
+}
+
+/// Look of an axis whose labels are written as all numbers: 1e−6, not 0.000001.
+export function numberLook() {
+  const look = axisLook();
+  return { ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } };
 }
 
 /// A chart that fills its element and follows its size and the page's colours.

@@ -85,7 +85,7 @@ export function startDefinitions() {
     const element = anchorOf(target);
     if (element) soon(element, hoverMs);
     else if (text.contains(/** @type {Node} */ (target))) clearTimeout(timer);
-    // What has the keyboard's focus stays explained.
+    // An element with the keyboard's focus stays explained.
     else if (!anchor?.matches(":focus-visible, :has(:focus-visible)")) soon(null, leaveMs);
   });
   document.addEventListener("click", (event) => {

@@ -3,6 +3,7 @@
 
 // The first that fits counts.
 const suffixes = [
+  ["_n_m_a", "N m/A"], ["_rad_m", "rad/m"], ["_ohm", "Ω"], ["_h", "H"],
   ["_n_m_s_rad", "N m s/rad"], ["_n_m_rad", "N m/rad"], ["_deg", "°"], ["_n_s_m", "N s/m"], ["_s_m", "s/m"],
   ["_1_m", "1/m"], ["_1_s", "1/s"], ["_j_m", "J m"],
   ["_m_s2", "m/s²"], ["_rad_s2", "rad/s²"], ["_rad_s", "rad/s"], ["_m_s", "m/s"], ["_n_m", "N m"], ["_kg_m2", "kg m²"],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows sweeps and studies as they run: by server-sent events, and by asking again where those are not to be had.
-import { eventsUrl, findSweep, isAway } from "/core/api.js";
+import { eventsUrl, findSweep, isUnreachable } from "/core/api.js";
 
 const pollMs = 2000;
 
@@ -65,7 +65,7 @@ async function poll(source, told, signal) {
   return undefined;
 }
 
-/// Result of a function that asks the service; it is called again as long as the service is away.
+/// Result of a function that asks the service; it is called again until the service can be reached.
 /// @param tell  is given what there is to say meanwhile, and "" at the end
 /**
  * @template Found
@@ -74,14 +74,14 @@ async function poll(source, told, signal) {
  * @param {AbortSignal} signal
  * @returns {Promise<Found>}
  */
-export async function persist(asked, tell, signal) {
+export async function retryWhileUnreachable(asked, tell, signal) {
   for (;;) {
     try {
       const found = await asked();
       tell("");
       return found;
     } catch (error) {
-      if (!isAway(error)) throw error;
+      if (!isUnreachable(error)) throw error;
       tell(`${error.message} Trying again …`);
     }
     await pause(pollMs, signal);
@@ -139,7 +139,7 @@ export function inTurn(run) {
 /// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and
 /// always after the last call.
 /** @param {() => unknown} run  @param {number | (() => number)} milliseconds */
-export function seldom(run, milliseconds) {
+export function throttle(run, milliseconds) {
   let timer = null;
   return () => {
     timer ??= setTimeout(() => {
@@ -151,7 +151,7 @@ export function seldom(run, milliseconds) {
 
 /// A function that runs the given one once it has not been called for so many milliseconds.
 /** @param {() => unknown} run  @param {number} milliseconds */
-export function settled(run, milliseconds) {
+export function debounce(run, milliseconds) {
   /** @type {number | undefined} */
   let timer;
   return () => {

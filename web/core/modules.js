@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the modules of views. One that failed is kept as such by some browsers: only a new page asks for it again,
-// and how often that was tried outlives it.
+// Loads the modules of views, and libraries. A module that failed is kept as such by some browsers: only a
+// new page asks for it again, and how often that was tried outlives it.
 import { findHealth } from "/core/api.js";
 
 const waitsMs = [2000, 5000, 15000, 45000];
@@ -16,7 +16,7 @@ export class Missing extends Error {
   }
 }
 
-/// @throws Missing, or Away if the service does not answer either
+/// @throws Missing, or Unreachable if the service does not answer either
 export async function loadModule(ask, signal) {
   try {
     const module = await ask();
@@ -27,6 +27,26 @@ export async function loadModule(ask, signal) {
     await findHealth(signal);
     throw new Missing(error.message);
   }
+}
+
+/// A function that loads a library once. A program that was built without npm has none.
+/// @param drawn  name of what the library draws
+/**
+ * @param {string} drawn
+ * @param {() => Promise<any>} load
+ * @returns {() => Promise<any>}
+ */
+export function libraryLoader(drawn, load) {
+  /** @type {Promise<any> | null} */
+  let library = null;
+  return () => {
+    library ??= load().catch(() => {
+      library = null;
+      throw new Error(`The ${drawn} could not be loaded: the program was built without the npm packages of `
+        + "web/, or is another one since this page was loaded. Load the page again.");
+    });
+    return library;
+  };
 }
 
 /// Milliseconds until a missing module is to be asked for again, longer each time; null when that was tried often

@@ -3,18 +3,12 @@
 // panning need.
 import { addressOf } from "/core/api.js";
 import { h } from "/core/dom.js";
+import { libraryLoader } from "/core/modules.js";
 
-let library = null;
-
-export function loadUplot() {
-  library ??= Promise.all([import("/lib/uplot.js"), styleSheet(addressOf("/lib/uplot.css"))])
-    .then(([module]) => module.default).catch(() => {
-    library = null;
-    throw new Error("The plots could not be loaded: the program was built without the npm packages of web/, or is "
-      + "another one since this page was loaded. Load the page again.");
-  });
-  return library;
-}
+export const loadUplot = libraryLoader("plots", async () => {
+  const [module] = await Promise.all([import("/lib/uplot.js"), styleSheet(addressOf("/lib/uplot.css"))]);
+  return module.default;
+});
 
 function styleSheet(href) {
   return new Promise((resolve, reject) => {

@@ -9,8 +9,13 @@ import { addVariables, readVariables, rowOfVariable, variableFields } from "/for
 
 const numbers = ["budget", "population", "samples", "replicates", "seed"];
 const mostOffered = 200;
-const bases = [["", "by the divergence of the motion"], ["point_wise", "samples"], ["features", "features"]];
-const intervals = [["", "profile likelihood"], ["linearised", "linearised model, which takes fewer jobs"]];
+/** @typedef {Api.Body<"/v1/fits">} Request */
+/** @type {Record<NonNullable<Request["basis"]>, string>} */
+const bases = { by_divergence: "by the divergence of the motion", point_wise: "samples",
+  features: "features" };
+/** @type {Record<NonNullable<Request["intervals"]>, string>} */
+const intervals = { profile: "profile likelihood", linearised: "linearised model, which takes fewer jobs" };
+const usual = { basis: "by_divergence", intervals: "profile" };  // left out of a request
 
 export class FitForm extends StudyForm {
   static api = fits;
@@ -30,8 +35,8 @@ export class FitForm extends StudyForm {
     this.known = known;
     this.state.values.replicates = request.replicates === undefined ? "" : String(request.replicates);
     this.state.over = readVariables(request.over);
-    this.state.values.basis ??= "";
-    this.state.values.intervals ??= "";
+    this.state.values.basis ||= usual.basis;
+    this.state.values.intervals ||= usual.intervals;
     this.measured = new FittedMeasurements(this, known, request.measurements ?? []);
   }
 
@@ -48,8 +53,9 @@ export class FitForm extends StudyForm {
     h("h2", {}, "Method"),
     this.told("basis", "Compared", values, "basis", "Samples suit motions that do not diverge, features "
       + "all others",
-      bases),
-    this.told("intervals", "Intervals", values, "intervals", "95 % intervals of the values", intervals),
+      Object.entries(bases)),
+    this.told("intervals", "Intervals", values, "intervals", "95 % intervals of the values",
+      Object.entries(intervals)),
     ...numbers.map((key) => this.number(key)),
     h("h2", {}, "Linkage"),
       h("p", { class: "quiet small" }, "Parameters that are known. Those of the measured runs need "
@@ -68,8 +74,8 @@ export class FitForm extends StudyForm {
     const request = { name, parameters };
     addVariables(this.state.over, request, problems);
     request.measurements = this.measured.build(problems);
-    if (basis) request.basis = basis;
-    if (kind) request.intervals = kind;
+    if (basis !== usual.basis) request.basis = basis;
+    if (kind !== usual.intervals) request.intervals = kind;
     this.addNumbers(numbers, request, problems);
     return { request: JSON.parse(JSON.stringify({ ...request, priority, reuse })), problems };
   }

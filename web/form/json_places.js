@@ -31,7 +31,7 @@ export function placesIn(text) {
     while (at < text.length && " \t\r\n".includes(text[at])) at += 1;
   }
 
-  /// What the pattern finds here; "" if that is nothing.
+  /// Text that the pattern matches here; "" if there is none.
   /** @param {RegExp} pattern */
   function taken(pattern) {
     pattern.lastIndex = at;

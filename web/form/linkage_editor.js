@@ -4,7 +4,7 @@
 import { Refusal, findAssembly } from "/core/api.js";
 import { freshId, h, swatch } from "/core/dom.js";
 import { plural } from "/core/format.js";
-import { latest, settled } from "/core/live.js";
+import { debounce, latest } from "/core/live.js";
 import { lineOf, placeOf, placesIn } from "/form/json_places.js";
 import { inLinkage, partsOf, wordsOfPointer } from "/form/linkage_words.js";
 import { bodyColours } from "/scene/described.js";
@@ -44,7 +44,7 @@ export class LinkageEditor {
       h("div", {}, h("label", { class: "choice wide", for: id }, "Linkage: JSON object of bodies and joints"),
         this.area, this.fault), this.seen, this.parts);
     this.ask = latest((current) => this.#assemble(current), signal);
-    this.askSoon = settled(() => signal.aborted || this.ask(), settleMs);
+    this.askSoon = debounce(() => signal.aborted || this.ask(), settleMs);
   }
 
   /// Takes what the form holds. @param parameters  of a job

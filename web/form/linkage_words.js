@@ -10,7 +10,7 @@ const isObject = (value) => typeof value === "object" && value !== null && !Arra
 const entriesOf = (value) => (isObject(value) ? Object.entries(value) : [])
   .filter(([, each]) => isObject(each));
 
-/// What drives a freedom: "driven by run up", "driven by a dc motor".
+/// Drive of a freedom in words: "driven by run up", "driven by a dc motor".
 function driveOf(drive) {
   if (!isObject(drive)) return "";
   return `driven by ${drive.law ? "" : "actuator "}${spaced(String(drive.law ?? drive.actuator))}`;
@@ -46,7 +46,7 @@ function bodyWords({ mass_kg: mass, beam }) {
  * @param {number | undefined} usual
  * @returns {{ title: string, parts: { name: string, words: string, pointer: string }[] }[]}
  */
-export function partsOf({ bodies, joints, springs, loads }, usual) {
+export function partsOf({ bodies, joints, springs, loads, accelerometers }, usual) {
   const listed = (title, key, members, words) => ({ title, parts: entriesOf(members).map(([name, each]) =>
     ({ name: spaced(name), words: words(each), pointer: `/${key}/${name}` })) });
   return [listed("Bodies", "bodies", bodies, bodyWords),
@@ -54,7 +54,9 @@ export function partsOf({ bodies, joints, springs, loads }, usual) {
     listed("Springs", "springs", springs, ({ from = "?", to = "?" }) =>
       `${spaced(String(from))} → ${spaced(String(to))}`),
     listed("Loads", "loads", loads, ({ body = "?", torque_n_m: torque }) =>
-      `${torque === undefined ? "force" : "torque"} on ${spaced(String(body))}`)]
+      `${torque === undefined ? "force" : "torque"} on ${spaced(String(body))}`),
+    listed("Accelerometers", "accelerometers", accelerometers,
+      ({ body = "?" }) => `on ${spaced(String(body))}`)]
     .filter(({ parts }) => parts.length > 0);
 }
 
@@ -63,7 +65,9 @@ const escaped = (key) => key.replaceAll("~", "~0").replaceAll("/", "~1");
 /** @type {(key: string) => string} */
 const unescaped = (key) => key.replaceAll("~1", "/").replaceAll("~0", "~");
 
-const kinds = { bodies: "body", joints: "joint", springs: "spring", loads: "load" };
+/** @type {Record<Api.PartsOfLinkage, string>} */
+const kinds = { bodies: "body", joints: "joint", springs: "spring", loads: "load",
+  accelerometers: "accelerometer" };
 
 /// Keys of a pointer of the service, which may be written with slashes or dots.
 /** @param {string} pointer  @returns {string[]} */

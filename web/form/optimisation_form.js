@@ -9,9 +9,11 @@ import { addNumber, StudyForm } from "/form/study_form.js";
 import { addVariables, readVariables, rowOfVariable, variableFields } from "/form/variable_fields.js";
 
 const numbers = ["budget", "population", "starts", "seed"];
-const goals = [["minimise", "minimise"], ["maximise", "maximise"]];
-const methods = [["", "the usual one"], ["cma_es", "CMA-ES"], ["nelder_mead", "Nelder-Mead, local"],
-  ["bobyqa", "BOBYQA, local"], ["nsga2", "NSGA-II, of several objectives"]];
+/** @type {Record<Api.Schemas["Objective"]["goal"], string>} */
+const goals = { minimise: "minimise", maximise: "maximise" };
+/** @type {Record<Api.Optimisation["method"], string>} */
+const methods = { cma_es: "CMA-ES", nelder_mead: "Nelder-Mead, local", bobyqa: "BOBYQA, local",
+  nsga2: "NSGA-II, of several objectives" };
 const sides = [["maximum", "at most"], ["minimum", "at least"]];
 const textOf = (value) => (value === undefined ? "" : String(value));
 
@@ -47,7 +49,7 @@ export class OptimisationForm extends StudyForm {
         + "candidate, or with "
         + "a quantile.", fresh: () => ({ metric: "", goal: "minimise", quantile: "" }),
       draw: (item, index) => itemRow(this, `objectives.${index}`,
-        [metric(item), choice("Goal", goals, item.goal,
+        [metric(item), choice("Goal", Object.entries(goals), item.goal,
         (goal) => { item.goal = goal; this.update(); }), quantile(item)]) }),
     listFields(this, { title: "Constraints", noun: "Constraint", items: bounds,
       help: "Bounds that a feasible candidate keeps, in the unit of the metric.",
@@ -56,8 +58,8 @@ export class OptimisationForm extends StudyForm {
         (side) => { item.side = side; this.update(); }), itemText(this, "Value", item, "value"),
           quantile(item)]) }),
     list, h("h2", {}, "Method and budget"),
-    ...itemRow(this, "method", [choice("Method", methods, this.state.method,
-      (method) => { this.state.method = method; this.update(); })]),
+    ...itemRow(this, "method", [choice("Method", [["", "the usual one"], ...Object.entries(methods)],
+      this.state.method, (method) => { this.state.method = method; this.update(); })]),
     ...numbers.map((key) => this.number(key)),
     h("h2", {}, "Linkage and axes"),
     h("p", { class: "quiet small" }, "A candidate has a job for each combination of the parameters that "

@@ -17,7 +17,7 @@ export class SearchForm extends StudyForm {
   static title = "New search";
   static schema = "SearchRequest";
 
-  /// With more initial values, where the address has a number of them.
+  /// Request with more initial values, where the address has a number of them.
   /** @param {any} request  @param {URLSearchParams} query */
   static adjusted(request, query) {
     const first = Number(query.get("first"));

@@ -5,7 +5,7 @@ import { Refusal, requestSchemas } from "/core/api.js";
 import { loadCharts } from "/core/charts.js";
 import { choice, freshId, h } from "/core/dom.js";
 import { plural } from "/core/format.js";
-import { settled } from "/core/live.js";
+import { debounce } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 import { channelField } from "/measure/channel_field.js";
 import { faultsOf, sendDraft, usedChannels } from "/measure/measurement_request.js";
@@ -46,7 +46,7 @@ class UploadForm {
   constructor(signal) {
     this.signal = signal;
     this.send.disabled = true;
-    this.drawSoon = settled(() => signal.aborted || this.drawPreview(), drawMs);
+    this.drawSoon = debounce(() => signal.aborted || this.drawPreview(), drawMs);
     requestSchemas(signal).then(({ Trajectory }) => this.names.append(
       ...Object.keys(Trajectory.properties.columns.properties).filter((name) => !/^(pose_|t_s$)/.test(name))
         .map((name) => h("option", { value: name })))).catch(() => {});

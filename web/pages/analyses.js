@@ -13,7 +13,7 @@ import { bearsOnPaper, paperCard } from "/analysis/paper.js";
 import { sensitivityCard } from "/analysis/sensitivity.js";
 import { surrogateCard } from "/analysis/surrogate.js";
 
-const usual = "peak_slider_acceleration_m_s2";  // which only RPSUP has
+const usual = "peak_slider_acceleration_m_s2";  // only RPSUP has it
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {

@@ -3,7 +3,7 @@
 import { cancelJob, findJob, findSweep, findTrajectory, parameterSchema, trajectoryUrl } from "/core/api.js";
 import { choice, h, notify, part } from "/core/dom.js";
 import { nameOfChannel, number, titleOfChannel } from "/core/format.js";
-import { pause, persist, seldom } from "/core/live.js";
+import { pause, retryWhileUnreachable, throttle } from "/core/live.js";
 import { readRoute, rememberQuery, routeTo } from "/core/route.js";
 import { colour } from "/core/theme.js";
 import { clearanceJoints, driveChannels, isDescribed, mainAcceleration, settingOf,
@@ -24,8 +24,10 @@ import { timeBar } from "/run/time_bar.js";
 import { TimeWindow } from "/run/time_window.js";
 import { sceneCard } from "/scene/scene_card.js";
 
-/** @type {("csv" | "json" | "npz")[]} */
-const formats = ["csv", "json", "npz"];
+/** @typedef {NonNullable<Api.Query<"/v1/jobs/{id}/trajectory">["format"]>} Format */
+/** @type {Record<Format, true>} */
+const isFormat = { csv: true, json: true, npz: true };
+const formats = /** @type {Format[]} */ (Object.keys(isFormat));
 /** @type {(state: Api.State) => boolean} */
 const isWaiting = (state) => state === "queued" || state === "running";
 const sliderAcceleration = "slider_acceleration_m_s2";
@@ -47,7 +49,7 @@ export async function show(main, { id, query, signal }) {
   const [schema, job, ...more] =
     await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
   document.title = `RPSUP: job ${id.slice(-5)}`;
-  // What a sweep varies tells jobs of a described linkage apart; a sweep that is gone tells nothing.
+  // The varied parameters of a sweep tell jobs of a described linkage apart. A sweep may be gone.
   const sweep = isDescribed(job) && job.sweep_id
     ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
   const page = new JobPage([job, ...more], schema, query, signal, sweep?.axes ?? []);
@@ -142,7 +144,7 @@ class JobPage {
     standing.draw(this.job, sweep, new Date());
     for (let { state } = this.job, polls = 1; isWaiting(state); ({ state } = this.job), polls += 1) {
       await pause(pollMs, this.signal);
-      this.job = await persist(() => findJob(this.job.id, this.signal), tell, this.signal);
+      this.job = await retryWhileUnreachable(() => findJob(this.job.id, this.signal), tell, this.signal);
       if (this.job.state === "succeeded") return dispatchEvent(new Event("hashchange"));
       if (isWaiting(this.job.state)) this.drawState();
       else redraw();
@@ -156,14 +158,14 @@ class JobPage {
 
   findItsSweep(tell) {
     const { sweep_id: id } = this.job;
-    return id ? persist(() => findSweep(id, this.signal), tell, this.signal) : null;
+    return id ? retryWhileUnreachable(() => findSweep(id, this.signal), tell, this.signal) : null;
   }
 
   async body() {
     const [from, to] = ["from", "to"].map((key) => Number(this.query.get(key) ?? NaN));
     if (Number.isFinite(from + to)) this.times.set(from, to);
     if (this.query.has("t")) this.times.pointAt(Number(this.query.get("t")) || 0);
-    const remember = seldom(() => this.signal.aborted || this.remember(), rememberMs);
+    const remember = throttle(() => this.signal.aborted || this.remember(), rememberMs);
     for (const event of ["change", "instant"]) this.times.addEventListener(event, remember, { signal: this.signal });
     const [first, measured] = await Promise.all([findTrajectory(this.job.id, { from: 0, to: 0 }, this.signal),
       findOverlays(this.overlays, this.jobs.length, this.signal)]);

@@ -4,7 +4,7 @@ import { addressOf, estimateSweep, exampleLinkage, findSweep, parameterSchema,
   submitSweep } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { plural } from "/core/format.js";
-import { latest, settled } from "/core/live.js";
+import { debounce, latest } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 import { costWords } from "/form/estimate.js";
 import { fieldsOf } from "/form/fields.js";
@@ -45,7 +45,7 @@ class SweepForm extends RequestForm {
     this.example = example;
     this.count.textContent = counting;
     this.estimate = latest((current) => this.#estimate(current), signal);
-    this.estimateSoon = settled(() => signal.aborted || this.estimate(), settleMs);
+    this.estimateSoon = debounce(() => signal.aborted || this.estimate(), settleMs);
   }
 
   parts() {

@@ -6,7 +6,7 @@ import { saveButtons, warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
-import { follow, inTurn, isUnderWay, pause, persist, seldom } from "/core/live.js";
+import { follow, inTurn, isUnderWay, pause, retryWhileUnreachable, throttle } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, drawSummary } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
@@ -60,7 +60,7 @@ export class SweepPage {
   selection = new Selection();
   failures = new Failures();
   /** @type {{ id: string, name: string, axes: string[], rows: Api.Row[] } | null} */
-  others = null;  // what lies beside it, thin and with hollow marks
+  others = null;  // the sweep beside it, thin and with hollow marks
   title = h("h1");
   tags = h("p", { class: "small" });
   notes = h("p", { class: "notes" });
@@ -176,7 +176,7 @@ export class SweepPage {
     if (this.isFollowed) return;
     this.isFollowed = true;
     // A large sweep is fetched seldom: what it takes is a small part of the time.
-    const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
+    const reload = throttle(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
     follow(this.sweep.id, {
       progress: (news) => { Object.assign(this.sweep, { ...news, id: this.sweep.id }); this.drawHead(); reload(); },
       // After a retry the counts may be those that were told before.
@@ -194,7 +194,7 @@ export class SweepPage {
   async load() {
     try {
       let start = 0;
-      [this.sweep, this.rows] = await persist(() => {
+      [this.sweep, this.rows] = await retryWhileUnreachable(() => {
         start = performance.now();
         return Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
       }, tell, this.signal);

@@ -6,19 +6,17 @@ import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
 import { ListOrder, Marked } from "/core/list_tools.js";
-import { follow, isUnderWay, settled } from "/core/live.js";
+import { debounce, follow, isUnderWay } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { executorsPanel } from "/study/executors.js";
-import { studyWords, sweepRow } from "/study/sweep_row.js";
+import { SweepRow, jobStates, studyWords } from "/study/sweep_row.js";
 
 const pageSize = 25;
 const mostSearched = 1000;
 const pollMs = 4000;
 const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
-/** @type {Api.State[]} */
-const states = ["queued", "running", "succeeded", "failed", "cancelled"];
 /** @type {(text: string | null) => Api.State | ""} */
-const stateOf = (text) => states.find((state) => state === text) ?? "";
+const stateOf = (text) => jobStates.find((state) => state === text) ?? "";
 const columns = [["box", ""], ["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"],
   ["created", "Created"], ["actions", "Actions"]];
 const whatItIs = "RPSUP simulates a spatial linkage whose coupler bends and whose joint is worn: the journal hits "
@@ -48,7 +46,7 @@ class SweepList {
   limit = pageSize;
   /** @type {Api.ListedSweep[]} */
   sweeps = [];
-  /** @type {Map<string, ReturnType<typeof sweepRow>>} */
+  /** @type {Map<string, SweepRow>} */
   rows = new Map();
   /** @type {Set<string>} */
   followedIds = new Set();
@@ -91,13 +89,13 @@ class SweepList {
 
   parts() {
     document.title = "RPSUP: sweeps";
-    const refreshSoon = settled(() => this.signal.aborted || this.refresh(), 300);
+    const refreshSoon = debounce(() => this.signal.aborted || this.refresh(), 300);
     const search = h("input",
       { type: "search", value: this.search,
         oninput: () => { this.search = search.value; this.changed(); refreshSoon(); } });
     const tools = h("p", { class: "actions" },
       h("label", { class: "choice" }, h("span", {}, "Search (name, badge, notes, id, axis)"), search),
-      choice("State", [["", "any"], ...states], this.state,
+      choice("State", [["", "any"], ...jobStates], this.state,
         (chosen) => { this.state = stateOf(chosen); this.changed(); this.refresh(); }),
       this.order.element, h("a", { class: "button main", href: "#/new" }, "New sweep"));
     this.order.draw();
@@ -170,8 +168,9 @@ class SweepList {
     const shown = this.order.ordered(this.sweeps.filter((sweep) => this.matches(sweep)));
     const actions = { cancel: cancelSweep, retry: retrySweep, delete: deleteSweep };
     const rows = shown.map((sweep) => {
-      const row = this.rows.get(sweep.id) ?? sweepRow((action) => this.act(actions[action], action, sweep.id),
-        this.marked.box(sweep), this.signal);
+      const row = this.rows.get(sweep.id)
+        ?? new SweepRow((action) => this.act(actions[action], action, sweep.id), this.marked.box(sweep),
+          this.signal);
       this.rows.set(sweep.id, row);
       row.update(sweep);
       return row.element;

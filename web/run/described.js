@@ -20,7 +20,7 @@ export function leavesOf(value, path) {
   return Object.assign({}, ...Object.entries(value).map(([key, inner]) => leavesOf(inner, `${path}.${key}`)));
 }
 
-/// What a sweep varies inside the linkage, with the values of a job.
+/// Numbers and words inside the linkage that a sweep varies, by their paths, with the values of a job.
 /**
  * @param {Pick<Api.Job, "parameters">} job
  * @param {string[]} axes

@@ -4,7 +4,7 @@ import { findTrajectory } from "/core/api.js";
 import { choice, contextOf, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
 import { saveCanvas } from "/core/download.js";
-import { latest, settled } from "/core/live.js";
+import { debounce, latest } from "/core/live.js";
 import { onColours } from "/core/theme.js";
 import { captioned } from "/run/captioned.js";
 import { wordsOf } from "/run/described.js";
@@ -82,7 +82,7 @@ export function orbit(job, { name, prefix, clearance }, times, signal) {
       wordsOf(clearance), job.id].map((text) => ({ name: text }));
   }
 
-  const refine = settled(() => signal.aborted || tryLoad(), refineMs);
+  const refine = debounce(() => signal.aborted || tryLoad(), refineMs);
   times.addEventListener("change", refine, { signal });
   times.addEventListener("instant", () => requestAnimationFrame(draw), { signal });
   onColours(paint, signal);

@@ -2,7 +2,7 @@
 // Channels of one or several jobs over time. What it shows is fetched for the stretch of time that is looked at, so
 // no spike is lost.
 import { h, laidOut } from "/core/dom.js";
-import { latest, persist, seldom, settled } from "/core/live.js";
+import { debounce, latest, retryWhileUnreachable, throttle } from "/core/live.js";
 import { onColours } from "/core/theme.js";
 import { loadUplot } from "/core/uplot.js";
 import { captioned } from "/run/captioned.js";
@@ -22,7 +22,7 @@ const settleMs = 250;  // where it only gets finer
  */
 export async function timePlot(element, { traces, times, height, label, signal }) {
   element.classList.add("time-plot");
-  element.style.minHeight = `${height}px`;  // what stands below does not jump when the plot comes
+  element.style.minHeight = `${height}px`;  // the parts below do not jump when the plot comes
   const uPlot = await loadUplot();
   await laidOut(element, signal);
   /** @type {InstanceType<typeof uPlot> | null} */
@@ -38,7 +38,8 @@ export async function timePlot(element, { traces, times, height, label, signal }
   const tell = (text) => { trouble.textContent = text; };
 
   const load = latest(async (current) => {
-    data = await persist(() => loadAligned(uPlot, traces, times, element.clientWidth, current), tell, current);
+    const find = () => loadAligned(uPlot, traces, times, element.clientWidth, current);
+    data = await retryWhileUnreachable(find, tell, current);
     if (plot) plot.setData(data, false);
     else make();
     follow();
@@ -76,8 +77,8 @@ export async function timePlot(element, { traces, times, height, label, signal }
     showInstant();
   }
 
-  const fetchSoon = seldom(() => signal.aborted || tryLoad(), refineMs);
-  const fetchLater = settled(() => signal.aborted || tryLoad(), settleMs);
+  const fetchSoon = throttle(() => signal.aborted || tryLoad(), refineMs);
+  const fetchLater = debounce(() => signal.aborted || tryLoad(), settleMs);
   // While the window moves within the loaded data these are drawn; finer data are fetched when it stands still.
   const isThere = () => data && times.from >= data[0][0] && times.to <= data[0][data[0].length - 1];
   times.addEventListener("change", () => { follow(); if (isThere()) fetchLater(); else fetchSoon(); }, { signal });

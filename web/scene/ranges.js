@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the picture of a described linkage needs to know of the whole run before it is drawn.
+// Ranges of channels over the whole run, which the picture of a described linkage needs before it is drawn.
 import { findTrajectory } from "/core/api.js";
 
 const points = 200;  // the service keeps the extremes, however few points it gives

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An objective over the candidates of an optimisation, with the best feasible value so far.
-import { axisLook, makeChart, nothingYet } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
 import { number, titleOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { spansDecades } from "/study/span.js";
@@ -10,7 +10,7 @@ import { spansDecades } from "/study/span.js";
  * @param {import("/study/optimisation_view.js").OptimisationView} view
  * @param {AbortSignal} signal
  */
-export function bestSoFar(element, view, signal) {
+export function bestSoFarChart(element, view, signal) {
   return makeChart(element, () => optionOf(view),
     "Objective over the candidates; the table below has the same numbers", signal);
 }
@@ -32,14 +32,14 @@ function optionOf({ candidates, objective, study }) {
   const marks = (state, index, opacity) => ({ type: "scatter", name: state, symbolSize: 6,
     itemStyle: { color: index < 0 ? colour("quiet") : lineColour(index), opacity },
     data: computed.filter((row) => row.state === state).map((row) => [row.candidate, row[objective]]) });
-  const look = axisLook();
   return {
     grid: { left: 75, right: 20, top: 44, bottom: 50 }, legend: { top: 0 },
     tooltip: { formatter: ({ seriesName, value }) =>
       `${seriesName}\ncandidate ${value[0]}: ${number(value[1])}` },
-    xAxis: { type: "value", name: "candidate", nameLocation: "middle", nameGap: 28, minInterval: 1, ...look },
+    xAxis: { type: "value", name: "candidate", nameLocation: "middle", nameGap: 28, minInterval: 1,
+      ...axisLook() },
     yAxis: { type: isLog ? "log" : "value", scale: true, name: titleOf(objective), nameLocation: "middle",
-      nameGap: 55, ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } },
+      nameGap: 55, ...numberLook() },
     series: [marks("feasible", -1, 0.6), ...(computed.some(({ state }) => state === "infeasible")
       ? [marks("infeasible", 1, 0.6)] : []),
     { type: "line", step: "end", symbol: "none", name: "best so far", color: lineColour(0), data: best }],

@@ -26,27 +26,13 @@ export function curveChoice(sweep, changed) {
   }
 
   function drawList() {
-    const { own, drawn, most, roles } = curvesOfSweep(sweep);
+    const { drawn, most } = curvesOfSweep(sweep);
     const keys = drawn.map(({ key }) => key);
-    const named = own.map((curve) => ({ key: curve.key, name: nameOfCurve(curve, roles)
-      || nameOf(sweep.view.metric) }))
-      .filter(({ name }) => name.toLowerCase().includes(search.value.trim().toLowerCase()));
-    const isFull = keys.length >= most;
-    more.textContent = [isFull && `At most ${most} at once: take one out for another.`,
-      named.length > mostListed
-        && `The first ${mostListed} of ${named.length.toLocaleString("en")}: search for others.`].filter(Boolean).join(" ");
+    const found = curvesNamed(search.value, sweep);
+    more.textContent = limitsText(keys.length >= most ? most : null, found.length);
     evenly.disabled = sweep.view.curves === null;
-    const focused = list.contains(document.activeElement) ? document.activeElement?.getAttribute("data-key")
-      : null;
-    list.replaceChildren(...named.slice(0, mostListed).map(({ key, name }) => {
-      const isDrawn = keys.includes(key);
-      const box = h("input", { type: "checkbox", "data-key": key, disabled: (isFull && !isDrawn)
-        || (isDrawn && keys.length === 1),
-        onchange: () => set(isDrawn ? keys.filter((each) => each !== key) : [...keys, key]) });
-      box.checked = isDrawn;
-      return h("label", {}, box, ` ${name}`);
-    }));
-    if (focused) [...list.querySelectorAll("input")].find((box) => box.dataset.key === focused)?.focus();
+    keepFocus(list, () => list.replaceChildren(...found.slice(0, mostListed)
+      .map((curve) => curveBox(curve, keys, most, set))));
   }
 
   function draw() {
@@ -57,4 +43,46 @@ export function curveChoice(sweep, changed) {
   }
 
   return { element, draw };
+}
+
+/// Curves of the sweep whose names have the text in them.
+/** @param {string} text  @param {SweepPage} sweep */
+function curvesNamed(text, sweep) {
+  const { own, roles } = curvesOfSweep(sweep);
+  const nameIn = (curve) => nameOfCurve(curve, roles) || nameOf(sweep.view.metric);
+  return own.map((curve) => ({ key: curve.key, name: nameIn(curve) }))
+    .filter(({ name }) => name.toLowerCase().includes(text.trim().toLowerCase()));
+}
+
+/// Sentences on the limits that are reached. @param most  curves, if so many are drawn  @param found  curves
+/** @param {number | null} most  @param {number} found */
+function limitsText(most, found) {
+  return [most !== null && `At most ${most} at once: take one out for another.`,
+    found > mostListed && `The first ${mostListed} of ${found.toLocaleString("en")}: search for others.`]
+    .filter(Boolean).join(" ");
+}
+
+/// Labelled box of a curve. The last one that is drawn stays, and no more are taken in than can be drawn.
+/**
+ * @param {{ key: string, name: string }} curve
+ * @param {string[]} drawn  keys
+ * @param {number} most
+ * @param {(drawn: string[]) => void} set
+ */
+function curveBox({ key, name }, drawn, most, set) {
+  const isDrawn = drawn.includes(key);
+  const isFixed = isDrawn ? drawn.length === 1 : drawn.length >= most;
+  const box = h("input", { type: "checkbox", "data-key": key, disabled: isFixed,
+    onchange: () => set(isDrawn ? drawn.filter((each) => each !== key) : [...drawn, key]) });
+  box.checked = isDrawn;
+  return h("label", {}, box, ` ${name}`);
+}
+
+/// Fills a list of boxes anew. The box of the key that had the focus has it again.
+/** @param {HTMLElement} list  @param {() => void} fill */
+function keepFocus(list, fill) {
+  const { activeElement: active } = document;
+  const focused = list.contains(active) ? active?.getAttribute("data-key") : null;
+  fill();
+  if (focused) [...list.querySelectorAll("input")].find((box) => box.dataset.key === focused)?.focus();
 }

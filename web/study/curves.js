@@ -57,7 +57,7 @@ export function nameOfCurve({ values, sweep }, { colour, style }) {
     sweep].filter(Boolean).join(", ");
 }
 
-/// So many of some places, evenly spread over them, with the one that must be among them.
+/// A selection of places, evenly spread, with the one that must be among them.
 /** @param {number} count  @param {number} most  @param {number} must */
 function spread(count, most, must) {
   if (count <= most) return Array.from({ length: count }, (_, place) => place);

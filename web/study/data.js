@@ -50,8 +50,8 @@ function compare(a, b) {
 /** @type {WeakMap<Api.Row[], Map<string, any>>} */
 const known = new WeakMap();  // by rows, then by name
 
-/// What is found in rows, looked for once as long as these are the rows: many parts of a page ask for the same.
-/// @param name  of what is found, another one for each question
+/// Answer to a question about rows. It is found once for the same rows: many parts of a page ask the same.
+/// @param name  of the question
 /**
  * @template Found
  * @param {Api.Row[]} rows

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why the jobs of a sweep failed: asked for apart, for few do.
+// Reasons why jobs of a sweep failed. They are asked for apart, for few jobs fail.
 import { findResults } from "/core/api.js";
-import { persist } from "/core/live.js";
+import { retryWhileUnreachable } from "/core/live.js";
 
 export class Failures {
   /** @type {Map<string, Api.Row>} */
@@ -34,7 +34,7 @@ export class Failures {
     this.#isDoubted = false;
     if (isKnown) return false;
     const query = { state: "failed", fields: "job_id,error_reason,error_detail" };
-    const found = await persist(() => findResults(sweep, query, signal), tell, signal);
+    const found = await retryWhileUnreachable(() => findResults(sweep, query, signal), tell, signal);
     this.#errors = new Map(found.map((row) => [row.job_id, row]));
     return true;
   }

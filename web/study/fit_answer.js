@@ -16,6 +16,7 @@ export const stageNames = { design: "points that fill the space", divergence: "p
   scan: "each parameter over its span", profile: "profile likelihood",
   prediction: "prediction of runs held back", ended: "ended" };
 
+/** @type {Record<NonNullable<Api.Fit["basis"]>, string>} */
 const bases = { point_wise: "The signals are compared point by point.",
   features: "Features of the signals are compared: peaks, impacts, envelope and bands." };
 
@@ -43,7 +44,7 @@ function overlaysOf({ signals, request }) {
       shift: request.measurements.find((each) => each.id === id)?.time_shift_s ?? 0 }));
 }
 
-/// What came of a fit in sentences, what the signals do not tell, and the jobs of the best point.
+/// Answer of a fit in sentences, the parameters that the signals do not tell, and the jobs of the best point.
 /** @param {Api.Fit} fit */
 export function answerOf(fit) {
   const { state, parameters, signals, measurement_ids: measurements, basis, divergence, local_end: end,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of a fit in the order in which they were tried: their sums of squares, and the values of the best so
 // far.
-import { axisLook, makeChart, nothingYet } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
 import { number } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
 import { legendOf } from "/study/legend.js";
@@ -12,7 +12,7 @@ import { nameOfVariable, titleOfVariable, unitOfVariable } from "/study/variable
 /// Index of the best point among the first ones, for each of the points; only points with a sum of squares
 /// count.
 /** @param {Point[]} points */
-export function bestSoFar(points) {
+export function runningBest(points) {
   let best = 0;
   return points.map((point, index) => {
     if (Number(point.sum_of_squares) < Number(points[best].sum_of_squares)) best = index;
@@ -56,16 +56,11 @@ export function fitMisfit(element, view, signal) {
     if (points.length === 0) return none();
     return { grid, legend: { top: 0 }, tooltip: { formatter: textOfPoint },
       xAxis: pointAxis(),
-      yAxis: { type: "log", name: "sum of squares", nameLocation: "middle", nameGap: 55, ...logLook() },
+      yAxis: { type: "log", name: "sum of squares", nameLocation: "middle", nameGap: 55, ...numberLook() },
       series: [tried(points, (point) => point.sum_of_squares),
         { type: "line", step: "end", symbol: "none", name: "best so far", color: lineColour(0),
-          data: bestSoFar(points).map((best, index) => [points[index].point, best.sum_of_squares]) }] };
+          data: runningBest(points).map((best, index) => [points[index].point, best.sum_of_squares]) }] };
   }, "Sum of squares over the points of the fit", signal);
-}
-
-function logLook() {
-  const look = axisLook();
-  return { ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } };
 }
 
 const textOfPoint = ({ seriesName, value: [point, value, stage = ""] }) =>
@@ -82,7 +77,7 @@ function tried(points, valueOfPoint) {
 /// All variables in one chart, each as a part of the way between its bounds.
 /** @param {import("/study/fit_view.js").FitView} view  @param {Point[]} points  @param {number} width */
 function shareOption(view, points, width) {
-  const best = bestSoFar(points);
+  const best = runningBest(points);
   const legend = legendOf(view.study.parameters.map(({ path }) => nameOfVariable(path)), width);
   const series = view.study.parameters.map(({ path }, index) =>
     ({ type: "line", step: "end", symbol: "none", name: nameOfVariable(path), color: lineColour(index),
@@ -111,5 +106,5 @@ function valueOption(view, points, path) {
       nameLocation: "middle", nameGap: 55, ...axisLook() },
     series: [tried(points, (point) => point[path]),
       { type: "line", step: "end", symbol: "none", name: "best so far", color: lineColour(0), markArea: band,
-        data: bestSoFar(points).map((best, index) => [points[index].point, best[path]]) }] };
+        data: runningBest(points).map((best, index) => [points[index].point, best[path]]) }] };
 }

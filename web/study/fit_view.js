@@ -5,7 +5,7 @@ import { choice, h } from "/core/dom.js";
 import { number, plural } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { answerOf, correlationCard, errorsCard, lostOf, stageNames } from "/study/fit_answer.js";
-import { bestSoFar, computed, fitConvergence, fitMisfit } from "/study/fit_points.js";
+import { computed, fitConvergence, fitMisfit, runningBest } from "/study/fit_points.js";
 import { fitSignals, nameOfSignal } from "/study/fit_signals.js";
 import { intervalBar, intervalText } from "/study/interval_bar.js";
 import { StudyView } from "/study/study_view.js";
@@ -67,7 +67,7 @@ export class FitView extends StudyView {
 
   /// The service tells the best values at the end of a stage: the points know better ones meanwhile.
   #showBestSoFar() {
-    const best = bestSoFar(computed(this)).at(-1);
+    const best = runningBest(computed(this)).at(-1);
     if (!best) return;
     for (const parameter of this.study.parameters) parameter.value = Number(best[parameter.path]);
   }

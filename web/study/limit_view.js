@@ -8,6 +8,7 @@ import { fallsShown, hasReplicates, limitCurve } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
 
+/** @type {Record<Api.Limit["verdict"], string>} */
 const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded at",
   always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
 
@@ -53,10 +54,12 @@ export class LimitView extends StudyView {
 
   intro() {
     const { study: search } = this;
-    const by = hasReplicates(search)
-      ? `for which at least ${number(100 * search.quantile)} % of the replicates keep` : "whose run keeps";
+    const { from, to } = search.request.over[search.parameter];
+    const share = hasReplicates(search)
+      ? ` in more than ${number(100 * (1 - search.quantile))} % of the replicates` : "";
     const single = "One run at each value: how much the metric scatters is not known, nor how sharp the limit is.";
-    return [h("p", {}, `The largest ${titleOf(search.parameter)} ${by} ${titleOf(search.metric)} at or below ${exact(search.bound)}.`),
+    return [h("p", {}, `Last value of ${titleOf(search.parameter)}, from ${exact(from)} to ${exact(to)}, `
+        + `before ${titleOf(search.metric)} first exceeds ${exact(search.bound)}${share}.`),
       ...(hasReplicates(search) ? [] : [h("p", { role: "note" }, single)])];
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A metric over one axis, a curve for each value of a second one (and of the panels' axis), with the spread
 // of what lies together. Numbers are told apart by a colour scale, words by line style.
-import { axisLook, makeChart, nothingYet } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { colour } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
@@ -12,7 +12,7 @@ import { chosenLogs } from "/study/log_axes.js";
 import { whyEmpty, withoutValue } from "/study/missing.js";
 import { fittedAxis } from "/study/span.js";
 
-const fewPoints = 400;  // whose marks do not hide the lines
+const fewPoints = 400;  // so many marks do not hide the lines
 const widthOfLetter = 6.3;  // of the notes, in pixels: about
 const left = 75;
 
@@ -80,9 +80,10 @@ function planOf(sweep, width) {
       textStyle: { width, overflow: "break", fontSize: 12, lineHeight: 18, fontWeight: "normal",
         color: colour("text") } },
     tooltip: { formatter: ({ seriesId, dataIndex }) => textOf(lines[Number(seriesId.split(":")[1])], dataIndex, view) },
-    xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28, ...(logs.x ? logLook() : axisLook()) },
+    xAxis: { ...x, name: titleOf(view.x), nameLocation: "middle", nameGap: 28,
+      ...(logs.x ? numberLook() : axisLook()) },
     yAxis: { name: titleOf(view.metric), nameLocation: "middle", nameGap: 50,
-      ...(logs.metric ? { type: "log", ...logLook() } : { ...fittedAxis, ...axisLook() }) },
+      ...(logs.metric ? { type: "log", ...numberLook() } : { ...fittedAxis, ...axisLook() }) },
     series: lines.flatMap((line, index) =>
       // The legend shows the first one of a name: the line.
       [lineSeries(line, index, at, few),
@@ -107,7 +108,7 @@ function dressed(curves, { rows, view, others }, roles) {
     label: inLegend(curve) || nameOf(view.metric) }));
 }
 
-/// What tells the curves apart: a colour bar for numbers, a legend for the rest.
+/// Key of the curves: a colour bar for numbers, a legend for the rest.
 /**
  * @param {SweepPage} sweep
  * @param {ReturnType<typeof rolesOf>} roles
@@ -140,12 +141,6 @@ function entryOf(name, { isScale }, lines) {
 function spoken({ view }, lines, count) {
   return `${nameOf(view.metric)} over ${nameOf(view.x).toLowerCase()}: ${lines.length} of ${plural(count, "curve")}: `
     + `${lines.map(({ name }) => name).join("; ")}.`;
-}
-
-/// Decades as 1e−6, not as 0.000001.
-function logLook() {
-  const look = axisLook();
-  return { ...look, axisLabel: { ...look.axisLabel, formatter: (value) => number(value) } };
 }
 
 /// Notes below the lines: averages, missing values, curves left out.

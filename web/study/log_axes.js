@@ -5,7 +5,7 @@ import { nameOf } from "/core/format.js";
 import { valuesOf } from "/study/data.js";
 import { spansDecades } from "/study/span.js";
 
-/// The axes that may be logarithmic.
+/// Axes that may be logarithmic.
 /** @param {Pick<SweepPage, "rows" | "others" | "view">} sweep */
 function offeredLogs({ rows, others, view }) {
   const both = others ? [rows, others.rows] : [rows];
@@ -13,8 +13,8 @@ function offeredLogs({ rows, others, view }) {
   return { x: spansDecades(both.flatMap((some) => valuesOf(some, view.x))), metric: spansDecades(metrics) };
 }
 
-/// The axes that are so. Values of an axis are decades apart because somebody has chosen them so; of a metric that
-/// is for the user to say.
+/// Logarithmic axes. An axis with values decades apart is one unless the user says otherwise.
+/// The metric's axis is one only if the user says so.
 /** @param {Pick<SweepPage, "rows" | "others" | "view">} sweep */
 export function chosenLogs(sweep) {
   const offered = offeredLogs(sweep);

@@ -38,7 +38,7 @@ export function missingText(sweep) {
     + `values of the steady part count from run_up_s on, ${early}; those of contacts need a clearance.`;
 }
 
-/// Why a chart is empty, in few words.
+/// Reason why a chart is empty, in few words.
 /** @param {SweepPage} sweep */
 export function whyEmpty(sweep) {
   const without = withoutValue(sweep);

@@ -5,9 +5,11 @@ import { exact, nameOf, number, plural, titleOf, unitOf } from "/core/format.js"
 import { routeTo } from "/core/route.js";
 
 const bounded = /_(at_most|at_least)$/;
+/** @type {Record<Api.Schemas["OptimisationStart"]["end"], string>} */
 const ends = { running: "running", converged: "converged", budget: "budget used", stopped: "stopped" };
-const methods = { cma_es: "CMA-ES, an evolution strategy",
-  nsga2: "NSGA-II, which looks for the Pareto front" };
+/** @type {Record<Api.Optimisation["method"], string>} */
+const methods = { cma_es: "CMA-ES, an evolution strategy", nsga2: "NSGA-II, which looks for the Pareto front",
+  nelder_mead: "Nelder-Mead, a local search", bobyqa: "BOBYQA, a local search" };
 
 /// Title of a column of candidates: variable, metric, or metric with a bound.
 /** @param {string} column */

@@ -4,7 +4,7 @@ import { optimisations } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { number, plural, titleOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
-import { bestSoFar } from "/study/best_so_far.js";
+import { bestSoFarChart } from "/study/best_so_far.js";
 import { candidateScatter } from "/study/candidate_scatter.js";
 import { drawChosen } from "/study/chosen.js";
 import { aimOf, answerOf, titleOfMetric } from "/study/optimisation_answer.js";
@@ -54,7 +54,7 @@ export class OptimisationView extends StudyView {
   }
 
   charts() {
-    return [{ title: "Best so far", make: bestSoFar, above: this.objectivePicker },
+    return [{ title: "Best so far", make: bestSoFarChart, above: this.objectivePicker },
       { title: this.hasFront ? "Pareto front" : "Candidates", make: candidateScatter,
         above: this.axisPicker },
       { title: "Parallel coordinates", wide: true,

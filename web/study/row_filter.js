@@ -16,7 +16,7 @@ const holds = { "<": (value, bound) => value < bound, ">": (value, bound) => val
   "<=": (value, bound) => value <= bound, ">=": (value, bound) => value >= bound,
     "≤": (value, bound) => value <= bound,
   "≥": (value, bound) => value >= bound,
-  // What the table shows has four digits.
+  // The table shows four digits.
   "=": (value, bound) => value === bound || Math.abs(value - bound) < 5e-5 * Math.abs(bound) };
 
 /// The test of a filter; null for an empty one. @param isNumeric  whether the column has numbers

@@ -3,7 +3,7 @@
 import { h } from "/core/dom.js";
 
 const around = 8;  // rows above and below what is seen
-const fewRows = 100;  // which are drawn all at once, with all their columns
+const fewRows = 100;  // so few are drawn all at once, with all their columns
 const columnsAround = 3;  // columns on both sides of what is seen
 const restMs = 100;  // without a jump until the rows around are drawn, too
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The jobs as points over any two of their numbers and parameters, in the colour of a third. A click selects.
-import { axisLook, makeChart, nothingYet } from "/core/charts.js";
+import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
-import { nameOf, number, pointOf, titleOf } from "/core/format.js";
+import { nameOf, pointOf, titleOf } from "/core/format.js";
 import { colour, lineColour, linePalette, paletteColour } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
 import { scaleOf } from "/study/curves.js";
@@ -26,7 +26,7 @@ export function scatterChart(element, sweep, signal) {
   return made;
 }
 
-/// What the axes and the colour show: as chosen, else the metric over the first axis.
+/// Columns of the axes and of the colour: as chosen, else the metric over the first axis.
 /** @param {SweepPage} sweep */
 function namesOf({ view, axes, metrics }) {
   const other = metrics.find((metric) => metric !== view.metric && /^peak_.*force/.test(metric)) ?? view.x;
@@ -114,15 +114,13 @@ function mapOf(numbers) {
 /** @param {Api.Row[]} rows  @param {string} name  @param {string[]} axes */
 function axisOf(rows, name, axes) {
   const values = valuesOf(rows, name).filter((value) => value !== none);
-  const look = axisLook();
   if (values.every((value) => typeof value === "number")) {
     const isLog = axes.includes(name) && spansDecades(values);
-    const format = { ...look.axisLabel, formatter: (value) => number(value) };
     return { has: (row) => typeof row[name] === "number", at: (row) => row[name],
-      option: { ...(isLog ? { type: "log" } : fittedAxis), ...look, axisLabel: format } };
+      option: { ...(isLog ? { type: "log" } : fittedAxis), ...numberLook() } };
   }
   return { has: (row) => valueOf(row, name) !== none, at: (row) => values.indexOf(valueOf(row, name)),
-    option: { type: "category", data: values.map(String), ...look } };
+    option: { type: "category", data: values.map(String), ...axisLook() } };
 }
 
 /** @param {Api.Row | undefined} row  @param {string[]} names */

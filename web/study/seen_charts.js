@@ -14,7 +14,7 @@ export class SeenCharts {
   /** @type {Set<Element>} */
   #near = new Set();
   /** @type {Map<Element, () => void>} */
-  #waiting = new Map();  // what is done once an element is near
+  #waiting = new Map();  // actions once an element is near
   /** @type {Set<number>} */
   #outdated = new Set();
   /** @type {Promise<void>} */

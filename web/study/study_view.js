@@ -3,7 +3,7 @@
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
-import { followStudy, inTurn, seldom } from "/core/live.js";
+import { followStudy, inTurn, throttle } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const reloadMs = 1000;
@@ -120,8 +120,8 @@ export class StudyView {
 
   follow() {
     if (this.study.state !== "running") return;
-    // What takes long is fetched seldom.
-    const reload = seldom(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
+    // A study that takes long to fetch is fetched rarely.
+    const reload = throttle(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
     followStudy(this.kind.api, this.study.id, {
       // The end is shown with its answer.
       progress: ({ state, counts, progress }) => {

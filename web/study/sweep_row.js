@@ -8,11 +8,13 @@ import { routeTo } from "/core/route.js";
 import { tagBadges } from "/study/sweep_labels.js";
 
 const usualPeak = "peak_slider_acceleration_m_s2";
-// of its cells
+/// Classes of the cells.
 const classes = { box: "box", name: "name", state: "", jobs: "small", peaks: "peaks",
   created: "small created", actions: "acts" };
-const shownOfId = 7;  // of its letters the last ones: the first tell the time and are much alike
-const jobStates = ["queued", "running", "succeeded", "failed", "cancelled"];
+const shownOfId = 7;  // last letters of an id: the first ones tell the time and are much alike
+/** @type {Record<Api.State, true>} */
+const isState = { queued: true, running: true, succeeded: true, failed: true, cancelled: true };
+export const jobStates = /** @type {Api.State[]} */ (Object.keys(isState));
 
 /// Page and name of the kinds of studies, by the first letters of their ids.
 const studyKinds = { sch: ["searches", "search"], fit: ["fits", "fit"],
@@ -36,86 +38,115 @@ export function studyBadge({ study_id: id }) {
   return h("a", { class: "badge", href: routeTo(page, id), title: `These jobs are those of the ${text} ${id}` }, text);
 }
 
-/// @param act  is called with "cancel", "retry" or "delete"  @param box  that marks the sweep
-/**
- * @param {(action: "cancel" | "retry" | "delete") => void} act
- * @param {HTMLElement} box
- * @param {AbortSignal} signal
- */
-export function sweepRow(act, box, signal) {
-  const cells = Object.fromEntries(Object.entries(classes).map(([key, name]) => [key, h("td", { class: name })]));
-  const element = h("tr", {}, ...Object.values(cells));
-  const buttons = {
-    cancel: h("button", { onclick: () => act("cancel") }, "Cancel"),
-    retry: h("button", { onclick: () => act("retry") }, "Retry"),
-    delete: h("button", { class: "danger", onclick: () => act("delete") }, "Delete"),
-  };
-  const again = h("a", { class: "button" }, "Duplicate");
-  cells.actions.append(h("span", { class: "actions" }, again, buttons.retry,
-    h("span", { class: "either" }, buttons.delete, buttons.cancel)));
-  cells.box.append(box);
-  const bar = h("progress");
-  const percent = h("span", { class: "quiet" });
-  const left = h("span", { class: "small quiet" });
-  const state = h("span");
-  cells.state.append(h("div", { class: "line" }, state, " ", percent), left, bar);
-  let drawn = "";
-  let counted = -1;
+/** @typedef {"cancel" | "retry" | "delete"} Action */
 
-  /** @param {Api.ListedSweep} sweep */
-  function update(sweep) {
-    const text = JSON.stringify(sweep);
-    if (text === drawn) return;
-    drawn = text;
-    const name = sweep.name || sweep.id;
-    cells.name.replaceChildren(h("div", { class: "line" }, h("a",
-      { href: routeTo("sweeps", sweep.id), title: sweep.id },
-      sweep.name || shortOf(sweep.id)), " ", studyBadge(sweep), ...tagBadges(sweep)),
-    h("span", { class: "small quiet", title: sweep.axes.map(nameOf).join(" × ") },
-      sweep.axes.map(nameOf).join(" × ")));
-    state.className = sweep.state;
-    state.textContent = sweep.executor === "local" ? sweep.state : `${sweep.state} on ${sweep.executor}`;
-    const part = `${Math.floor(100 * sweep.progress)} %`;
-    bar.value = sweep.progress;
-    bar.setAttribute("aria-label", `Progress of ${name}`);
-    percent.textContent = part;
-    left.textContent = isUnderWay(sweep) && sweep.eta_s !== null ? `about ${span(sweep.eta_s)} left` : "";
-    bar.hidden = !isUnderWay(sweep);
-    cells.jobs.textContent = jobStates.filter((each) => sweep.counts[each] > 0)
-      .map((each) => `${sweep.counts[each].toLocaleString("en")} ${each}`).join(", ");
-    cells.created.textContent = shortMoment(sweep.created_at);
-    cells.created.title = moment(sweep.created_at);
-    setSeen(buttons.cancel, isUnderWay(sweep));
-    setSeen(buttons.retry, sweep.counts.failed + sweep.counts.cancelled > 0);
-    setSeen(buttons.delete, !isUnderWay(sweep) && !sweep.study_id);
-    for (const button of Object.values(buttons)) button.setAttribute("aria-label", `${button.textContent} ${name}`);
-    again.href = routeTo("new", "", { from: sweep.id });
-    again.setAttribute("aria-label", `Duplicate ${name}`);
-    if (sweep.counts.succeeded !== counted && sweep.counts.succeeded > 0) showPeaks(sweep);
-    counted = sweep.counts.succeeded;
+export class SweepRow {
+  #drawn = "";  // JSON of the sweep that the row shows
+  #counted = -1;  // jobs that had succeeded then
+  #state = h("span");
+  #percent = h("span", { class: "quiet" });
+  #left = h("span", { class: "small quiet" });
+  #bar = h("progress");
+  #again = h("a", { class: "button" }, "Duplicate");
+
+  /// @param act  is called with the action of a button  @param box  that marks the sweep
+  /** @param {(action: Action) => void} act  @param {HTMLElement} box  @param {AbortSignal} signal */
+  constructor(act, box, signal) {
+    this.signal = signal;
+    this.cells = Object.fromEntries(Object.entries(classes)
+      .map(([key, name]) => [key, h("td", { class: name })]));
+    this.element = h("tr", {}, ...Object.values(this.cells));
+    this.buttons = {
+      cancel: h("button", { onclick: () => act("cancel") }, "Cancel"),
+      retry: h("button", { onclick: () => act("retry") }, "Retry"),
+      delete: h("button", { class: "danger", onclick: () => act("delete") }, "Delete"),
+    };
+    this.cells.box.append(box);
+    this.cells.state.append(h("div", { class: "line" }, this.#state, " ", this.#percent), this.#left,
+      this.#bar);
+    this.cells.actions.append(h("span", { class: "actions" }, this.#again, this.buttons.retry,
+      h("span", { class: "either" }, this.buttons.delete, this.buttons.cancel)));
   }
 
   /** @param {Api.ListedSweep} sweep */
-  async function showPeaks(sweep) {
-    /** @type {(peak: string, order: string) => Promise<Api.Row | undefined>} */
-    const extreme = async (peak, order) => {
-      const rows = await findResults(sweep.id,
-        { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
-      return rows[0];
-    };
-    try {
-      // A described linkage has peaks by the names of its joints: the first one stands for them.
-      const [any] = await findResults(sweep.id, { limit: 1 }, signal);
-      const peak = usualPeak in any ? usualPeak : Object.keys(any).find((name) => name.startsWith("peak_"));
-      if (!peak) return;
-      const [least, largest] = await Promise.all([extreme(peak, peak), extreme(peak, `-${peak}`)]);
-      const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
-      cells.peaks.replaceChildren(...(least && largest ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`]
-        : ["–"]));
-    } catch (error) {
-      if (error.name !== "AbortError") cells.peaks.textContent = "–";
+  update(sweep) {
+    const text = JSON.stringify(sweep);
+    if (text === this.#drawn) return;
+    this.#drawn = text;
+    this.#drawName(sweep);
+    this.#drawState(sweep);
+    this.#drawJobs(sweep);
+    this.#drawActions(sweep);
+    const { succeeded } = sweep.counts;
+    if (succeeded !== this.#counted && succeeded > 0) this.#showPeaks(sweep.id);
+    this.#counted = succeeded;
+  }
+
+  /** @param {Api.ListedSweep} sweep */
+  #drawName(sweep) {
+    const { id, name, axes } = sweep;
+    const varied = axes.map(nameOf).join(" × ");
+    this.cells.name.replaceChildren(h("div", { class: "line" },
+      h("a", { href: routeTo("sweeps", id), title: id }, name || shortOf(id)), " ", studyBadge(sweep),
+      ...tagBadges(sweep)), h("span", { class: "small quiet", title: varied }, varied));
+  }
+
+  /** @param {Api.ListedSweep} sweep */
+  #drawState(sweep) {
+    const { state, progress, eta_s: eta } = sweep;
+    this.#state.className = state;
+    this.#state.textContent = sweep.executor === "local" ? state : `${state} on ${sweep.executor}`;
+    this.#percent.textContent = `${Math.floor(100 * progress)} %`;
+    this.#left.textContent = isUnderWay(sweep) && eta !== null ? `about ${span(eta)} left` : "";
+    this.#bar.value = progress;
+    this.#bar.hidden = !isUnderWay(sweep);
+    this.#bar.setAttribute("aria-label", `Progress of ${sweep.name || sweep.id}`);
+  }
+
+  /** @param {Api.ListedSweep} sweep */
+  #drawJobs({ counts, created_at: created }) {
+    this.cells.jobs.textContent = jobStates.filter((state) => counts[state] > 0)
+      .map((state) => `${counts[state].toLocaleString("en")} ${state}`).join(", ");
+    this.cells.created.textContent = shortMoment(created);
+    this.cells.created.title = moment(created);
+  }
+
+  /** @param {Api.ListedSweep} sweep */
+  #drawActions(sweep) {
+    const { counts, study_id: study } = sweep;
+    setSeen(this.buttons.cancel, isUnderWay(sweep));
+    setSeen(this.buttons.retry, counts.failed + counts.cancelled > 0);
+    setSeen(this.buttons.delete, !isUnderWay(sweep) && !study);
+    this.#again.href = routeTo("new", "", { from: sweep.id });
+    for (const button of [...Object.values(this.buttons), this.#again]) {
+      button.setAttribute("aria-label", `${button.textContent} ${sweep.name || sweep.id}`);
     }
   }
 
-  return { element, update };
+  /** @param {string} id */
+  async #showPeaks(id) {
+    try {
+      const found = await findPeaks(id, this.signal);
+      if (!found) return;
+      const { peak, least, largest } = found;
+      const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
+      this.cells.peaks.replaceChildren(...(least && largest
+        ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
+    } catch (error) {
+      if (error.name !== "AbortError") this.cells.peaks.textContent = "–";
+    }
+  }
+}
+
+/// Jobs with the least and the largest peak of a sweep; null if its jobs have no peaks.
+/** @param {string} id  @param {AbortSignal} signal */
+async function findPeaks(id, signal) {
+  // A described linkage has peaks by the names of its joints: the first one stands for them.
+  const [any] = await findResults(id, { limit: 1 }, signal);
+  const peak = usualPeak in any ? usualPeak : Object.keys(any).find((name) => name.startsWith("peak_"));
+  if (!peak) return null;
+  const first = (order) => findResults(id,
+    { fields: `job_id,${peak}`, [`${peak}_ge`]: 0, order_by: order, limit: 1 }, signal);
+  const [[least], [largest]] = await Promise.all([first(peak), first(`-${peak}`)]);
+  return { peak, least, largest };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page of a sweep shows, read from its address and written into it.
+// View of the page of a sweep: read from its address, and written into it.
 import { usualMetric, valuesOf } from "/study/data.js";
 
 const mostInAddress = 20;  // selected jobs

@@ -7,11 +7,12 @@ import { routeTo } from "/core/route.js";
 import { StudyView } from "/study/study_view.js";
 import { wearGrowth, wearMap } from "/study/wear_charts.js";
 
+/** @type {Record<Api.WearStudy["verdict"], string>} */
 const verdicts = { open: "open", hours_reached: "end time reached", clearance_reached: "worn clearance reached",
   no_wear: "no wear", cycle_limit: "cycle limit reached",
   lost: "undetermined: a job failed" };
 
-/// How far a study has come and why it has stopped, for a list.
+/// Progress of a study and the reason of its end, for a list.
 /** @param {Api.WearStudy} study */
 export function shortAnswerOf({ cycles, verdict, state, error }) {
   const last = cycles.at(-1);
@@ -26,7 +27,7 @@ export class WearView extends StudyView {
   static route = "wear";
 
   tableName = "Cycles";
-  ring = 0;  // whose bore is drawn
+  ring = 0;  // the ring whose bore is drawn
   picker = h("span");
 
   charts() {
