@@ -46,7 +46,7 @@ struct Measurement;
 struct SweepPlan;
 struct TrajectoryExport;
 
-/// When a service begins to compute.
+/// Time at which a service begins to compute.
 enum class Start { kAtOnce, kWhenTold };
 
 struct ServiceOptions {

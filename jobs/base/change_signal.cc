@@ -51,7 +51,7 @@ bool ChangeSignal::wait_for_change(std::uint64_t seen,
 
 bool ChangeSignal::wait_for(std::chrono::milliseconds at_most,
                             const std::function<std::optional<bool>()>& has_ended) const {
-  constexpr std::chrono::milliseconds kBetweenQuestions{5};  // where thousands of jobs end in a second
+  constexpr std::chrono::milliseconds kBetweenQuestions{5};  // thousands of jobs may end in a second
   // The largest waits would overflow the clock.
   const auto now = std::chrono::steady_clock::now();
   const auto deadline = now + std::min<std::chrono::milliseconds>(at_most, std::chrono::years(10));

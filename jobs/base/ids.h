@@ -33,7 +33,7 @@ inline constexpr std::string_view kOptimisationPrefix = "opt_";
 inline constexpr std::string_view kFitPrefix = "fit_";
 inline constexpr std::string_view kMeasurementPrefix = "mea_";
 
-/// Whether a text has the form of an id of that kind.
+/// @returns whether a text has the form of an id of that kind
 [[nodiscard]] bool is_id(std::string_view text, std::string_view prefix);
 
 }  // namespace jobs

@@ -13,7 +13,7 @@ struct Provenance {
   /// Variant of libm: "native" (the fastest that the processor has) or "portable"
   std::string numerics;
   std::string version, commit, compiler;  ///< of the program
-  std::string engine;    ///< what a result's content is named with
+  std::string engine;                     ///< part of the name of a result's content
 };
 
 /// Provenance of the results of this process.
@@ -26,7 +26,7 @@ struct Provenance {
 /// The value of GLIBC_TUNABLES with which a program starts in portable numerics: it keeps what is set
 /// already.
 [[nodiscard]] std::string portable_tunables();
-/// Whether this process was started with it.
+/// @returns whether this process was started in portable numerics
 [[nodiscard]] bool has_portable_numerics();
 
 /// Engine's part of this process's contents: the engine's version and, if they are portable, its numerics.

@@ -10,10 +10,10 @@
 
 namespace jobs {
 
-/// Kind of study. kLimit searches the limit of a parameter, kWear follows a bearing that is worn over the
+/// Kind of study. kSearch searches the limit of a parameter, kWear follows a bearing that is worn over the
 /// hours, kOptimisation looks for the least or largest values of metrics, kFit for parameters with which
 /// jobs give measured signals.
-enum class StudyKind { kLimit, kWear, kOptimisation, kFit };
+enum class StudyKind { kSearch, kWear, kOptimisation, kFit };
 
 struct StudyKindInfo {
   std::string_view name;       ///< as users know it

@@ -14,8 +14,8 @@
 
 namespace jobs::cluster {
 
-/// A batch that a cluster computes, as its folder and the store tell it. What is here can be made from them
-/// at any time.
+/// A batch that a cluster computes, as its folder and the store tell it. Its state can be made from them at
+/// any time.
 class Batch {
  public:
   /// @param folder  of all batches of the store
@@ -31,7 +31,7 @@ class Batch {
   [[nodiscard]] std::vector<std::string> array_names() const;
   [[nodiscard]] int generations() const { return generations_; }
 
-  /// Whether the folder has what its tasks read.
+  /// @returns whether the folder has what its tasks read
   [[nodiscard]] bool is_prepared() const { return std::filesystem::exists(folder_.jobs()); }
   void prepare(const BatchHeader& header, const std::vector<BatchJob>& jobs) const;
   /// Reads the lists that were written so far.
@@ -65,7 +65,7 @@ class Batch {
   /// Tasks that have indices left.
   [[nodiscard]] int open_tasks() const;
 
-  Clock::time_point not_before{};  ///< when what Slurm has refused may be tried again
+  Clock::time_point not_before{};  ///< earliest time to submit refused tasks again
   int refusals = 0;                ///< in a row
 
  private:

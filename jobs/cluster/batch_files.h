@@ -44,7 +44,7 @@ struct BatchHeader {
   std::string batch;   ///< id
   std::string engine;  ///< that must compute it
   JobLimits limits;    ///< of each job
-  double deliver_every_s = 60.0;  ///< how often a task leaves what it has done so far
+  double deliver_every_s = 60.0;  ///< interval at which a task leaves its results so far
 };
 
 /// The parameters of jobs, by index.

@@ -221,7 +221,7 @@ class Check {
   Batch batch_;
   std::filesystem::path program_;
   TaskReport last_;                         ///< of the task
-  std::optional<Clock::time_point> ended_;  ///< when the task was first seen to have ended
+  std::optional<Clock::time_point> ended_;  ///< time at which the task was first seen to have ended
 };
 
 }  // namespace

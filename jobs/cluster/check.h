@@ -14,8 +14,8 @@ struct Finding {
   enum class Kind { kGood, kWarning, kFault };
 
   Kind kind = Kind::kGood;
-  std::string text;    ///< what is so
-  std::string advice;  ///< what to do about it; empty if there is nothing to do
+  std::string text;    ///< the finding itself
+  std::string advice;  ///< remedy; empty if there is none
 };
 
 /// Tries a cluster out as a service would use it, since what usually is wrong shows nowhere: asks Slurm for

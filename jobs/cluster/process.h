@@ -14,7 +14,7 @@ struct ProcessOutcome {
 
   End end = End::kNotStarted;
   int code = 0;          ///< of one that exited; 128 and the signal's number of one that a signal ended
-  std::string out, err;  ///< what it wrote; of each the first 64 MiB
+  std::string out, err;  ///< output; of each the first 64 MiB
 
   [[nodiscard]] bool succeeded() const { return end == End::kExited && code == 0; }
   /// Text for a human: its last output, or how it ended.

@@ -6,7 +6,7 @@
 namespace jobs::cluster {
 namespace {
 
-/// Why a task's jobs are lost.
+/// Cause of the loss of a task's jobs.
 enum class Loss { kRefused, kInterrupted, kOwnFault, kTooSlow, kTooLarge };
 
 Loss loss_of(const TaskState& task, const TaskReport* report) {

@@ -36,10 +36,10 @@ struct LostJob {
 /// Actions for a batch.
 struct Decision {
   std::vector<TaskPlan> submit;   ///< as the next generation
-  std::vector<TaskName> cancel;   ///< what Slurm has of them is not wanted
+  std::vector<TaskName> cancel;   ///< known to Slurm, but not wanted
   std::vector<LostJob> fail;
   std::set<BatchIndex> running;        ///< jobs whose tasks run; others wait
-  bool refused = false;           ///< what is to be submitted has been refused before: not at once
+  bool refused = false;                ///< the tasks to submit have been refused before: not at once
 };
 
 /// Decides what becomes of the tasks of one batch. The shared folder has the results and the lists; Slurm's
@@ -68,7 +68,7 @@ class Reconciler {
                                         Clock::time_point now);
 
   const Clock::duration grace_;
-  /// When a task was first seen to have ended, or to run although nobody wants it
+  /// Time at which a task was first seen to have ended, or to run although nobody wants it
   std::map<TaskName, Clock::time_point> since_;
 };
 

@@ -92,7 +92,7 @@ class Delivery {
     return changed_.wait_for(lock, time, [&] { return total_ >= jobs_; });
   }
 
-  /// Whether so much is ready that it should not wait: one file is read at once at the other end.
+  /// @returns whether so much is ready that it should not wait: one file is read at once at the other end
   bool is_large() {
     constexpr std::size_t kLarge = std::size_t{32} << 20U;
     const std::lock_guard lock(mutex_);

@@ -10,7 +10,7 @@ namespace jobs::cluster {
 
 /// Settings of the cluster, chosen by whoever runs the service.
 struct Site {
-  /// That the service and all nodes see under this name; empty: there is no cluster
+  /// Folder that the service and all nodes see under this name; empty: there is no cluster
   std::filesystem::path folder;
   std::filesystem::path program;     ///< that nodes run, copied into the folder; empty: this one
   std::vector<std::string> prefix;   ///< words before each of Slurm's commands: {"ssh", "login", "--"}
@@ -22,7 +22,7 @@ struct Site {
   int tasks = 0;                     ///< tasks that may wait or run at a time; 0: twice the slots
   long memory_mb = 0;                ///< for each processor; 0: the site's default
   double task_s = 600.0;             ///< that a task is to take
-  /// That a task is to take at least, since Slurm takes a second or so to start it
+  /// Time that a task is to take at least, since Slurm takes a second or so to start it
   double least_task_s = 60.0;
   std::chrono::milliseconds queue_poll{15'000};   ///< between two looks into Slurm's queue
   std::chrono::milliseconds folder_poll{2'000};   ///< between two looks into the folder

@@ -53,7 +53,7 @@ class Slurm {
   [[nodiscard]] std::optional<Reports> observe(const std::vector<std::string>& names,
                                                std::string& problem) const;
 
-  /// Whether there was something to cancel is not told: Slurm does not say it either.
+  /// Cancels an array. Slurm does not say whether there was anything to cancel.
   void cancel_array(const std::string& name) const;
   /// @param array_job  Slurm's own number of the array
   void cancel_tasks(const std::string& array_job, const std::vector<int>& indices) const;

@@ -364,13 +364,13 @@ std::size_t SlurmExecutor::choose_job_count(const TaskBounds& bound, bool are_co
   return static_cast<std::size_t>(std::clamp(wished, 1.0, kMostJobs));
 }
 
-/// Whether nothing is left of a batch, here and in Slurm; then it is forgotten.
+/// Forgets a batch of which nothing is left, here and in Slurm. @returns whether nothing was left
 bool SlurmExecutor::retire(const Live& live, const std::map<TaskName, TaskReport>& reports) {
   const bool alive =
       std::ranges::any_of(reports, [](const auto& report) { return is_alive(report.second.phase); });
   if (alive || !live.batch.wanted().empty()) return false;
   batches_.end(live.batch.row().seq);
-  std::error_code ignored;  // what cannot be removed is found at the next start
+  std::error_code ignored;  // files that cannot be removed are found at the next start
   std::filesystem::remove_all(live.batch.folder().path, ignored);
   return true;
 }

@@ -14,10 +14,10 @@ using BatchIndex = std::uint32_t;
 /// Jobs of one task, and the failures of earlier tasks with them.
 struct TaskPlan {
   std::vector<BatchIndex> indices;  ///< ascending
-  int tries = 0;              ///< how often these jobs were lost
-  int strikes = 0;            ///< how often it was the task itself that failed
-  int memory_factor = 1;      ///< of what the site gives a task
-  int time_factor = 1;        ///< of the time that it is expected to take
+  int tries = 0;                    ///< losses of these jobs so far
+  int strikes = 0;                  ///< losses by a failure of the task itself
+  int memory_factor = 1;            ///< of what the site gives a task
+  int time_factor = 1;              ///< of the time that it is expected to take
   bool operator==(const TaskPlan&) const = default;
 };
 

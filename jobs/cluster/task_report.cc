@@ -40,7 +40,7 @@ std::optional<ReportFields> split_fields(std::string_view line) {
   return fields;
 }
 
-/// Whether all tasks of an array were cancelled before they began: nothing is said of any one of them.
+/// @returns whether all tasks of an array were cancelled before they began: nothing is said of single ones
 bool is_cancelled_array(const ReportFields& fields) {
   return fields[2] == "N/A" && !is_alive(phase_of(fields[3]));
 }

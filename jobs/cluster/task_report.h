@@ -31,7 +31,7 @@ struct TaskReport {
   std::string array_job;  ///< Slurm's number of the array, for humans and for scancel
   int cpus = 0;
   std::string node;       ///< empty while it waits
-  std::string reason;     ///< why it waits or how it ended, in Slurm's words; "None" if there is none
+  std::string reason;     ///< cause of its wait or of its end, in Slurm's words; "None" if there is none
 
   /// Held because Slurm could not start it, again and again: it would wait forever.
   [[nodiscard]] bool is_held_by_failure() const;

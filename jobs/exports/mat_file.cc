@@ -95,7 +95,7 @@ class MatStruct {
   std::vector<std::pair<std::string, MatVariable>> fields_;
 };
 
-/// Whether bytes are one stream of zlib from its beginning to its checksum.
+/// @returns whether bytes are one stream of zlib from its beginning to its checksum
 bool is_whole_stream(std::string& packed) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
@@ -163,9 +163,9 @@ class MatFile final : public TrajectoryFile {
     ++written_;
   }
 
-  /// Whether the file has every variable whole: the library does not tell of bytes that the disk did not
-  /// take, and then may write the size of those that it took. Each variable is a tag, type and size, and a
-  /// stream of zlib, which ends with a checksum.
+  /// @returns whether the file has every variable whole: the library does not tell of bytes that the disk did
+  /// not take, and then may write the size of those that it took. Each variable is a tag, type and size, and
+  /// a stream of zlib, which ends with a checksum.
   [[nodiscard]] bool is_complete() const {
     constexpr std::streamoff kHeadBytes = 128;
     const auto size = static_cast<std::uint64_t>(std::filesystem::file_size(path_));

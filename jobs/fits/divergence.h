@@ -12,7 +12,7 @@ enum class FitBasis { kPointWise, kFeatures };
 struct SignalDivergence {
   double ratio = 0.0;  ///< RMS of the difference over the RMS of the signal about its mean
   FitBasis basis = FitBasis::kPointWise;
-  std::string message;  ///< what the measure says, a sentence
+  std::string message;  ///< meaning of the measure, a sentence
 };
 
 /// Ratio above which trajectories of neighbouring starts are no longer one motion.

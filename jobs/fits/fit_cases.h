@@ -28,7 +28,7 @@ namespace jobs {
 [[nodiscard]] FitPoint replicate_of(const FitProblem& problem, const FitPoint& point, std::size_t k);
 inline constexpr double kReplicateShift = 1e-5;
 
-/// Whether a run has samples that are fitted. Others are predicted with the best values.
+/// @returns whether a run has samples that are fitted. Others are predicted with the best values.
 [[nodiscard]] bool is_fitted(const FitProblem& problem, std::size_t run);
 
 /// Case of the sweep with the job of one run at a point.

@@ -90,7 +90,7 @@ std::vector<std::vector<double>> predictions_of(const FitSignal& signal, std::si
   return predictions;
 }
 
-/// Whether the compared samples are some cycles long, and dense enough.
+/// @returns whether the compared samples are some cycles long, and dense enough
 bool has_features(const FitSignal& signal) {
   const auto& t = signal.compared.t;
   return t.size() > kFewestForTest && signal.cycle_s > 0.0 && t.back() - t.front() > 2.0 * signal.cycle_s &&

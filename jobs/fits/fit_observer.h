@@ -47,8 +47,8 @@ class FitObserver {
   [[nodiscard]] std::optional<Observation> observe(const FitPoint& point,
                                                    const std::vector<std::string>& job_ids,
                                                    Wanted wanted) const;
-  /// Whether the residuals of each signal are white, without the spikes that impacts leave that come too
-  /// early or too late.
+  /// @returns whether the residuals of each signal are white, without the spikes that impacts leave that come
+  /// too early or too late
   [[nodiscard]] bool is_noise(const std::vector<double>& residuals) const;
   /// Part of the sum of squares beyond that of the noise.
   [[nodiscard]] double misfit(const std::vector<double>& residuals) const;

@@ -13,7 +13,7 @@ namespace jobs {
 namespace {
 
 constexpr double kPointSteps = 1e6;           // of a span: its decimals are at least as fine as 1e-9 of it
-constexpr double kShorterDifference = 0.125;  // where the simulations on both sides fail
+constexpr double kShorterDifference = 0.125;  // of a step, if the simulations on both sides fail
 
 Eigen::VectorXd as_vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));

@@ -390,7 +390,7 @@ class FitParser : private FittedMeasurementsParser {
     thin_signals();
   }
 
-  /// Which samples are fitted, as the rest of a sentence.
+  /// Description of the fitted samples, as the rest of a sentence.
   [[nodiscard]] std::string describe_fitted_samples() const {
     const auto time = [&](const char* key) {
       return number_text(completed_.front().at(key).get<double>()) + " s";
@@ -443,7 +443,7 @@ class FitParser : private FittedMeasurementsParser {
   FitProblem made_;
   SweepRequest common_;
   std::vector<json> completed_;  ///< parameters of each run
-  /// Whether a sample is fitted, by measurement, run and channel.
+  /// Marks of the fitted samples, by measurement, run and channel.
   std::map<std::tuple<std::string, std::size_t, std::string>, std::vector<bool>> fitted_;
   std::size_t most_samples_ = 0;
   std::size_t next_run_ = 0;

@@ -52,7 +52,7 @@ constexpr double kNoiseMisfit = 0.05;
 /// first one: large ones lead across what is rugged, small ones to the bottom of what is smooth and bent.
 /// Parameters differ in what they change.
 constexpr std::array<double, 5> kChanges{0.0, 0.5, 0.2, 0.1, 0.005};
-constexpr std::size_t kPassOfIntervals = 3;  ///< whose differences are those of the intervals, too
+constexpr std::size_t kPassOfIntervals = 3;  ///< its differences are those of the intervals, too
 constexpr double kFirstStep = 1e-2;          ///< of all parameters
 constexpr double kShortestStep = 1e-5;
 constexpr double kLongestStep = 0.1;

@@ -173,7 +173,7 @@ class FitSampler final : public StudySampler {
   Points scan_;
   std::vector<double> factors_;  ///< of each signal's residuals in least squares
   std::size_t pass_ = 0;         ///< of the least squares, in kChanges
-  std::size_t replicates_ = 1;   ///< whose features' mean counts for a point
+  std::size_t replicates_ = 1;   ///< of a point; the mean of their features counts
   std::vector<double> steps_;    ///< of the differences of the parameters
   std::size_t global_limit_ = 0, polish_limit_ = 0, search_limit_ = 0,
               local_limit_ = 0;  ///< numbers of points

@@ -106,7 +106,7 @@ FitSampler::Points FitSampler::run_global() {
   return {};
 }
 
-/// Whether the best point is enough better than an earlier one to search on from it.
+/// @returns whether the best point is enough better than an earlier one to search on from it
 bool FitSampler::gains_since(const FitPoint& earlier) {
   const double gain = loss_of(earlier).value() - loss_of(best_).value();
   return gain > kLeastGain && summary_.points.size() < global_limit_;

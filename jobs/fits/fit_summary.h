@@ -52,7 +52,7 @@ struct ValueRange {
   double low = 0.0, high = 0.0;
 };
 
-/// Whether a range is no more than half of a span, in its scale.
+/// @returns whether a range is no more than half of a span, in its scale
 [[nodiscard]] inline bool is_decided(const ValueRange& range, const Span& span) {
   return part_at(span, range.high) - part_at(span, range.low) <= 0.5;
 }
@@ -70,7 +70,7 @@ struct FitSummary {
   std::optional<FitBasis> basis{};
   std::optional<SignalDivergence> divergence{};
   std::optional<std::size_t> best{};        ///< index of the point with the least sum
-  std::optional<std::string> local_end{};   ///< how the least squares ended, a sentence
+  std::optional<std::string> local_end{};   ///< end of the least squares, a sentence
   std::optional<FitIntervals> intervals{};  ///< at the best point
   std::optional<std::vector<ProfileInterval>> profiles{};
   std::vector<ValueRange> ranges{};  ///< of points about as good as the best; empty where profiles are

@@ -51,7 +51,7 @@ struct LeastSquaresResult {
   Eigen::MatrixXd jacobian;     ///< of the residuals by the parts of the spans; 0 by a fixed parameter
   std::size_t iterations = 0;   ///< accepted steps
   std::size_t evaluations = 0;  ///< points that have been asked for
-  std::string message;          ///< how the fit ended, a sentence
+  std::string message;          ///< end of the fit, a sentence
 };
 
 /// Either points to be simulated or the result.

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kSame = 1e-3;  // how right peaks are: a ratio nearer to 1 says that it makes no difference
+constexpr double kSame = 1e-3;  // accuracy of peaks: a ratio nearer to 1 shows no difference
 constexpr const char* kLosses[] = {"friction_work_j", "impact_loss_j", "structural_loss_j"};
 
 /// Axis of a sweep that makes a link rigid or flexible.
@@ -91,10 +91,10 @@ Pair pair_of(const ResultTable& results, const RowGroup& group, const LinkAxis& 
   return pair;
 }
 
-/// Whether the scatter of a pair is known.
+/// @returns whether the scatter of a pair is known
 bool has_replicates(const Pair& pair) { return pair.rigid.count > 1 && pair.flexible.count > 1; }
 
-/// On which side of 1 every ratio of a pair is: -1, 1, or 0 if they make no difference, are on both sides, or
+/// Side of 1 on which every ratio of a pair is: -1, 1, or 0 if they make no difference, are on both sides, or
 /// their scatter is not known.
 int side_of(const Pair& pair) {
   if (!pair.ratio || !has_replicates(pair)) return 0;

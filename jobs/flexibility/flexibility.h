@@ -9,9 +9,9 @@
 
 namespace jobs {
 
-/// Whether a flexible link helps: a row for each combination of what a sweep varies beside the link, in which
-/// its rigid and its flexible jobs stand side by side. The link is the coupler, or a beam of a described
-/// linkage whose `elements` are 1, rigid, and another number.
+/// Comparison of a flexible link with a rigid one: a row for each combination of the parameters that a sweep
+/// varies beside the link, in which its rigid and its flexible jobs stand side by side. The link is the
+/// coupler, or a beam of a described linkage whose `elements` are 1, rigid, and another number.
 ///
 /// `ratio` is the flexible mean of the metric over the rigid one; with replicates it lies between
 /// `ratio_least` (the least flexible value over the largest rigid one) and `ratio_largest`. `verdict` is

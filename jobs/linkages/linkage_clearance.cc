@@ -82,8 +82,8 @@ engine::ClearanceParameters make_block(const json& clearance, const engine::Rpsu
   return block;
 }
 
-/// Whether a block can turn about any axis up to half a right angle: beyond that its corners meet the walls
-/// beside their own ones. Turned by phi it is a cos(phi) + b sin(phi) wide, most at tan(phi) = b / a.
+/// @returns whether a block can turn about any axis up to half a right angle: beyond that its corners meet
+/// other walls than their own. Turned by phi it is a cos(phi) + b sin(phi) wide, most at tan(phi) = b / a.
 bool can_turn_over(const engine::ClearanceParameters& block) {
   const double x = block.block_x, y = block.block_y, z = 0.5 * block.L_b;
   const double free_x = x + block.c_r, free_y = y + block.c_y;

@@ -14,12 +14,12 @@
 
 namespace jobs {
 
-/// Whether joints of this kind can have clearance.
+/// @returns whether joints of this kind can have clearance
 [[nodiscard]] bool can_have_clearance(engine::JointKind kind);
 
 /// Keys of the clearance of such a joint.
 [[nodiscard]] LinkageFields clearance_fields_of(engine::JointKind kind);
-/// Those that only a block in its slot has.
+/// Keys that only a block in its slot has.
 [[nodiscard]] const LinkageFields& block_fields();
 /// Keys of the cross of a universal joint with clearance.
 [[nodiscard]] const LinkageFields& cross_fields();
@@ -29,7 +29,7 @@ void check_clearance(const nlohmann::json& joint, engine::JointKind kind,
                      const engine::RpsupParameters& defaults, const std::string& pointer,
                      std::vector<Fault>& faults);
 
-/// Whether a joint without faults has clearance: one of 0 is none.
+/// @returns whether a joint without faults has clearance: one of 0 is none
 /// @param defaults  the job's, for what the joint does not say
 [[nodiscard]] bool has_clearance(const nlohmann::json& joint, const engine::RpsupParameters& defaults);
 

@@ -30,7 +30,7 @@ using JointFreedom = std::pair<std::string_view, engine::Motion>;
 
 [[nodiscard]] bool closes_loop(const nlohmann::json& joint);
 
-/// Whether a joint is a universal one with clearance: its cross is a body between two revolute joints.
+/// @returns whether a joint is a universal one with clearance, whose cross is a body between revolute joints
 [[nodiscard]] bool has_cross(const nlohmann::json& joint);
 inline constexpr std::string_view kCrossEnding = "_cross";  ///< of that body's name, behind the joint's
 

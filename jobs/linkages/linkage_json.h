@@ -17,7 +17,7 @@ namespace jobs {
 inline constexpr std::string_view kLinkageKey = "linkage";
 inline constexpr std::string_view kRpsupName = "rpsup";
 
-/// Whether a parameter set describes its linkage, instead of naming the RPSUP linkage.
+/// @returns whether a parameter set describes its linkage, instead of naming the RPSUP linkage
 [[nodiscard]] bool describes_linkage(const nlohmann::json& parameters);
 
 /// The engine's view of a described linkage: the only place where its units are converted.

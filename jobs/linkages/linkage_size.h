@@ -19,8 +19,8 @@ struct LinkageSize {
 /// @param elements     rigid elements of a beam that does not say how many
 [[nodiscard]] LinkageSize size_of_linkage(const nlohmann::json& description, std::size_t elements);
 
-/// Why a linkage is too large for a job, empty if it is not: memory and time of a step grow with the square
-/// of the coordinates and more.
+/// Fault of a linkage that is too large for a job; empty if it is not. Memory and time of a step grow with
+/// the square of the coordinates and more.
 [[nodiscard]] std::string describe_size_fault(const LinkageSize& size);
 
 /// Time to see whether the loops of a linkage close, in times of one with few bodies.

@@ -35,7 +35,7 @@ void lower_priority() {
 /// @param threads  that compute jobs
 void keep_freed_memory(int threads) {
   constexpr int kKeep = 16 << 20;     // bytes an arena; a job of default output takes some 5 MB
-  constexpr int kLargest = 4 << 20;   // what is larger comes from the system, and goes back at once
+  constexpr int kLargest = 4 << 20;   // larger blocks come from the system, and go back at once
   ::mallopt(M_ARENA_MAX, threads + 2);  // else each thread that answers users would keep as much
   ::mallopt(M_TRIM_THRESHOLD, kKeep);
   ::mallopt(M_MMAP_THRESHOLD, kLargest);

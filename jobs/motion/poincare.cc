@@ -36,7 +36,7 @@ bool is_among(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// Whether a channel is the position of a freedom: its rate is kept, too.
+/// @returns whether a channel is the position of a freedom: its rate is kept, too
 bool is_freedom(const std::vector<std::string>& kept, const std::string& channel) {
   return (channel.ends_with("_rad") || channel.ends_with("_m")) &&
          is_among(kept, derivatives_of(channel).rate);
@@ -146,7 +146,7 @@ class Interpolant {
   bool smooth_;
 };
 
-/// Where in its k-th interval the angle passes a value between those at its ends, by bisection.
+/// Place in its k-th interval at which the angle passes a value between those at its ends, by bisection.
 double find_passage(const Interpolant& angle, std::size_t k, double value, bool rises) {
   double low = 0.0, high = 1.0;
   for (double middle = 0.5; low < middle && middle < high; middle = 0.5 * (low + high))

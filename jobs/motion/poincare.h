@@ -15,7 +15,7 @@ namespace jobs {
 
 /// Channels of a Poincare section.
 struct SectionChannels {
-  std::string angle;                ///< whose passages make the section
+  std::string angle;                ///< its passages make the section
   std::vector<std::string> wanted;  ///< of the section
   std::vector<std::string> read;    ///< these, the angle, and the derivatives of both that a run keeps
 };

@@ -29,7 +29,7 @@ struct OptimisationCandidate {
   std::vector<std::string> job_ids{};
   /// Over the jobs, for each objective and then for each bound
   std::vector<std::vector<double>> metrics{};
-  /// Why a job has no value: its error_reason, "cancelled", "no_value", or kInvalidParameters
+  /// Reason for a job without value: its error_reason, "cancelled", "no_value", or kInvalidParameters
   std::optional<std::string> lost_reason{};
 };
 

@@ -158,8 +158,8 @@ class PopulationSearch::State {
     if (before.values.front() < history_.back().values.front()) history_.back() = before;
   }
 
-  /// Whether the last generations have gained too little: as many as Hansen's criterion of equal function
-  /// values takes.
+  /// @returns whether the last generations have gained too little: as many as Hansen's criterion of equal
+  /// function values takes
   [[nodiscard]] bool has_converged() const {
     const auto patience =
         static_cast<std::size_t>(10.0 + std::ceil(30.0 * static_cast<double>(options_.dimensions) /

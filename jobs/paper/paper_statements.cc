@@ -31,7 +31,7 @@ constexpr std::array<double, 2> kClearances{0.25, 0.5};  // [mm]
 constexpr double kSlow = 10.0, kFast = 15.0;             // of the growths, [rad/s]
 constexpr double kGrowthWithin = 0.2, kSameWithin = 0.05;
 constexpr double kPeaksRightTo =
-    1e-3;  // what default tolerances aim at: ratios nearer to 1 show no difference
+    1e-3;  // accuracy that default tolerances aim at: ratios nearer to 1 show no difference
 
 /// One case of the paper's sweeps.
 struct PaperCase {
@@ -228,7 +228,7 @@ std::vector<double> velocities_of(const Settings& settings) {
   return velocities;
 }
 
-/// StatementOutcome of one statement over the settings that have its peaks.
+/// Outcome of one statement over the settings that have its peaks.
 struct StatementOutcome {
   std::vector<std::size_t> settings;         ///< those that have its peaks
   std::vector<double> least, largest, logs;  ///< of each one's ratios; the logarithm of their geometric mean

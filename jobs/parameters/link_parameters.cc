@@ -126,8 +126,8 @@ json complete_link(std::size_t link, const json& given, const json& completed) {
   return {{kMassKey, filled.mass}, {kInertiaKey, std::move(moments)}};
 }
 
-/// Whether three moments are those of some body; equal sums pass in spite of rounding (thin plates have
-/// them).
+/// @returns whether three moments are those of some body; equal sums pass in spite of rounding (thin plates
+/// have them)
 bool is_possible(const std::array<double, 3>& moments) {
   constexpr double kRounding = 1e-9;
   const double sum = moments[0] + moments[1] + moments[2];
@@ -135,7 +135,7 @@ bool is_possible(const std::array<double, 3>& moments) {
                      [&](double moment) { return moment > 0.0 && 2.0 * moment <= sum * (1.0 + kRounding); });
 }
 
-/// Why no body has the moments of a link; empty if one has.
+/// Fault of the moments of a link that no body has; empty if some body has them.
 std::string describe_inertia_fault(std::size_t i, const json& completed) {
   const json& link = completed.at("links").at(kLinkNames[i]);
   auto moments = link.at(kInertiaKey).get<std::array<double, 3>>();

@@ -287,8 +287,8 @@ void add_round_link_rows(Rows& rows) {
                         between(0, 10'000), &P::cross_length, kMmPerM));
 }
 
-/// The scope of parameters that are not of joints. What is said of the RPSUP linkage's own bodies and drives
-/// is for it alone.
+/// The scope of parameters that are not of joints. Parameters of the RPSUP linkage's own bodies and drives
+/// are for it alone.
 ParameterScope scope_of(std::string_view key) {
   constexpr std::array<std::string_view, 11> kOfAnyRun{"duration_s", "output_rate_hz", "integrator", "step_s", "relative_tolerance", "absolute_tolerance",
                                                        "run_up_s", "drive", "baumgarte_alpha_1_s", "baumgarte_beta_1_s", "gravity_m_s2"};

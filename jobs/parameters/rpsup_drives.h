@@ -34,7 +34,7 @@ struct RpsupDrive {
 
 [[nodiscard]] const std::array<RpsupDrive, 2>& rpsup_drives();
 
-/// Whether a drive is an actuator, which gives a force, and no law, which gives the motion.
+/// @returns whether a drive is an actuator, which gives a force, and no law, which gives the motion
 [[nodiscard]] bool is_actuator(const nlohmann::json& drive);
 
 [[nodiscard]] const RpsupDrive* find_rpsup_drive(std::string_view key);  ///< null if there is none

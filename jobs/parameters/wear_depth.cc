@@ -16,7 +16,7 @@ constexpr std::size_t kMostRings = 16;  // as many as radial_levels allows
 
 std::string shape_text() {
   return "must be a list for each ring of the journal, each of the same number of depths, " +
-         kWearSectorsRange.text();
+         kBoreSectorsRange.text();
 }
 
 void collect_ring_faults(const json& ring, const std::string& pointer, std::vector<Fault>& faults) {
@@ -32,7 +32,7 @@ void collect_ring_faults(const json& ring, const std::string& pointer, std::vect
 std::vector<Fault> find_wear_faults(const json& value) {
   const std::string pointer = pointer_token(kWearKey);
   const auto is_ring = [&](const json& ring) {
-    return ring.is_array() && kWearSectorsRange.contains(static_cast<double>(ring.size())) &&
+    return ring.is_array() && kBoreSectorsRange.contains(static_cast<double>(ring.size())) &&
            ring.size() == value.front().size();
   };
   if (!value.is_array() || value.empty() || value.size() > kMostRings || !std::ranges::all_of(value, is_ring))
@@ -68,9 +68,10 @@ engine::WearDepth to_wear_depth(const json& value) {
 
 json wear_schema() {
   json depth{{"type", "number"}, {"minimum", kWearDepthRange.minimum}, {"maximum", kWearDepthRange.maximum}};
-  json ring{{"type", "array"}, {"items", std::move(depth)},
-            {"minItems", static_cast<int>(kWearSectorsRange.minimum)},
-            {"maxItems", static_cast<int>(kWearSectorsRange.maximum)}};
+  json ring{{"type", "array"},
+            {"items", std::move(depth)},
+            {"minItems", static_cast<int>(kBoreSectorsRange.minimum)},
+            {"maxItems", static_cast<int>(kBoreSectorsRange.maximum)}};
   return {{"type", "array"},
           {"items", std::move(ring)},
           {"minItems", 1},

@@ -18,7 +18,7 @@ namespace jobs {
 // only if it is given.
 
 inline constexpr std::string_view kWearKey = "wear_depth_um";
-inline constexpr Range kWearSectorsRange{.minimum = 8, .maximum = 360};
+inline constexpr Range kBoreSectorsRange{.minimum = 8, .maximum = 360};
 /// At most a tenth of the bearing's radius, whatever that is, [um]
 inline constexpr Range kWearDepthRange{.minimum = 0.0, .maximum = 100'000.0};
 

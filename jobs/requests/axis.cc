@@ -98,7 +98,7 @@ void collect_axis_value_faults(const Axis& axis, bool is_span, Repeats repeats, 
   }
 }
 
-/// Why a path that is not known cannot be swept.
+/// Fault of a path that is not known, and so cannot be swept.
 std::string describe_path_fault(const std::string& path) {
   if (is_path_in_description(path))
     return "is longer than any place in a description: at most " + std::to_string(kLongestLinkagePath) +

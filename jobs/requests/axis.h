@@ -18,22 +18,24 @@ inline constexpr Range kCountRange{.minimum = 1, .maximum = 1e9};
 
 /// One swept parameter and its values, in the order of the request.
 struct Axis {
-  std::string path;                     ///< "clearance_mm", "links.1,3.mass_kg"
+  std::string path;  ///< "clearance_mm", "links.1,3.mass_kg"
   std::vector<nlohmann::json> values;
-  std::vector<std::string> pointers;    ///< where each value stands in the request
+  std::vector<std::string> pointers;  ///< place of each value in the request
 };
 
-/// Whether a value may stand in an axis twice.
+/// Treatment of a value that stands in an axis twice.
 enum class Repeats { kRefused, kAllowed };
 
-/// Whether an axis may have this path; if not, the fault is added.
+/// @returns whether an axis may have this path; if not, the fault is added
 [[nodiscard]] bool is_known_path(const std::string& path, const std::string& pointer,
                                  std::vector<Fault>& faults);
 
-/// Whether a path's values are single numbers. @param path  a known one
+/// @returns whether a path's values are single numbers
+/// @param path  a known one
 [[nodiscard]] bool is_numeric(const std::string& path);
 
-/// Whether a path's values are whole numbers, of a parameter or in a description. @param path  a known one
+/// @returns whether a path's values are whole numbers, of a parameter or in a description
+/// @param path  a known one
 [[nodiscard]] bool is_integer(const std::string& path);
 
 /// A value in the form in which equal values are equal: 5 and 5.0 are one number. @param value  has no faults
@@ -47,7 +49,7 @@ enum class Repeats { kRefused, kAllowed };
 /// Pointer to a design's values of a path.
 [[nodiscard]] std::string pointer_of_axis(std::string_view path);
 
-/// Whether one of an axis' values is this one, without making them.
+/// @returns whether one of an axis' values is this one, without making them
 /// @param axis   has passed count_axis_values
 /// @param value  has no faults
 [[nodiscard]] bool axis_contains(const std::string& path, const nlohmann::json& axis,

@@ -15,11 +15,11 @@ namespace jobs {
 
 /// One job that is to be stored.
 struct PlannedJob {
-  std::string parameters;   ///< all of them, canonical
+  std::string parameters;  ///< all of them, canonical
   std::string content_id;
-  std::string kind;         ///< what its cost depends on most: "flexible, clearance"
+  std::string kind;  ///< features on which its cost depends most: "flexible, clearance"
   std::optional<std::uint64_t> replicate;
-  std::string swept;        ///< JSON list of the values of SweepPlan::swept
+  std::string swept;  ///< JSON list of the values of SweepPlan::swept
 };
 
 struct SweepPlan {

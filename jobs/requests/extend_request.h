@@ -17,7 +17,7 @@ struct Extension {
 };
 
 /// Adds values to the axes of a sweep, and cases to its cases: `{"sweep": {axis: values}, "cases": [...]}`.
-/// What is swept stays; values and cases that the sweep has already are left out.
+/// The swept parameters stay the same; values and cases that the sweep has already are left out.
 /// @param former  a request that has been planned before
 /// @throws InvalidRequest with every fault, with pointers into the addition
 [[nodiscard]] Extension plan_extension(const nlohmann::ordered_json& former,

@@ -14,14 +14,14 @@ namespace jobs {
 /// Every path that an axis may have.
 [[nodiscard]] const std::vector<std::string>& known_paths();
 
-/// Whether a key's value is an object or lists of lists, which only the cases of a sweep vary.
+/// @returns whether a key's value is an object or lists of lists, which only the cases of a sweep vary
 [[nodiscard]] bool is_varied_by_cases(std::string_view key);
 
-/// The paths that a parameter set gives values to, in its order. What is no parameter has none.
+/// The paths that a parameter set gives values to, in its order. A key that is no parameter has none.
 [[nodiscard]] std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters);
 
-/// Whether a path names a number inside the description of a linkage or of a drive:
-/// "linkage.bodies.rod.mass_kg", "crank_drive.voltage_v".
+/// @returns whether a path names a number inside the description of a linkage or of a drive:
+/// "linkage.bodies.rod.mass_kg", "crank_drive.voltage_v"
 [[nodiscard]] bool is_path_in_description(std::string_view path);
 
 /// Fault of a path that names no number of a description in a parameter set; empty if there is none.

@@ -228,7 +228,8 @@ std::string describe_misplaced(const std::string& key) {
   return "";
 }
 
-/// Why a key cannot have a value, or cannot stand here; empty if it can. Values with parts are not looked at.
+/// Fault of a key that cannot have the value, or cannot stand here; empty if there is none. Values with parts
+/// are not looked at.
 std::string describe_value_fault(const std::string& key, const json& value) {
   if (key == kLinkageKey) return "";
   if (key == kKeepKey) return describe_keep_fault(value);

@@ -32,8 +32,8 @@ namespace jobs {
 /// The faults that the given values have each by itself: unknown key, wrong type, out of range.
 [[nodiscard]] std::vector<Fault> find_value_faults(const nlohmann::json& given);
 
-/// The faults of the value of one path by itself. What a number inside a described linkage may be is judged
-/// with the whole description.
+/// The faults of the value of one path by itself. A number inside a described linkage is judged with the
+/// whole description.
 [[nodiscard]] std::vector<Fault> find_path_faults(const std::string& path, const nlohmann::json& value);
 
 /// The given values and all defaults, in canonical form. @param given  an object whose values have no faults
@@ -43,8 +43,8 @@ namespace jobs {
 /// @param completed  from fill_in_defaults
 [[nodiscard]] std::vector<Fault> find_combination_faults(const nlohmann::json& completed);
 
-/// Whether the job's trajectory has more channels than that. Of jobs of "rpsup" they are only counted where
-/// some of those might have more.
+/// @returns whether the job's trajectory has more channels than `most`. Of jobs of "rpsup" they are only
+/// counted where some of those might have more.
 [[nodiscard]] bool has_more_channels(const JobSpec& spec, double most);
 
 }  // namespace jobs

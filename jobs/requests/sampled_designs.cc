@@ -21,7 +21,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::uint64_t kDefaultSeed = 1;
-/// What no count of points reaches
+/// Number that no count of points reaches.
 constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
 
 /// Adds the faults of both ends of a range. Returns whether there are none.

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Whether what stands at a pointer into parameters is one number or word. (Moments of inertia are three.)
+/// @returns whether a pointer into parameters leads to one number or word. (Moments of inertia are three.)
 bool takes_one_value(const std::string& pointer) {
   static const std::set<std::string> pointers = [] {
     std::set<std::string> found;
@@ -166,7 +166,7 @@ class SweepParser {
 
   void read_parameters() {
     if (request_.contains("parameters")) sweep_.parameters = request_.at("parameters");
-    // What follows may rely on them
+    // The steps below rely on parameters without faults.
     if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();
     if (!request_.contains(kKeepKey)) return;
     const json keep = request_.at(kKeepKey);
@@ -177,7 +177,8 @@ class SweepParser {
     sweep_.parameters[kKeepKey] = keep;
   }
 
-  /// Faults of the parameters at a pointer. Who gives one of them several values is told where those stand.
+  /// Faults of the parameters at a pointer. The fault of a parameter with several values tells where those
+  /// stand.
   /// @returns true if there are none
   bool check_values(const json& given, const std::string& pointer) {
     const std::vector<Fault> found = find_value_faults(given);
@@ -309,7 +310,7 @@ class SweepParser {
     }
   }
 
-  /// Whether there is a description that has the path. Without one, that is a fault.
+  /// @returns whether there is a description that has the path. A missing one is a fault.
   bool has_number_at(const std::string& path, const json& given, const std::string& pointer) {
     const std::string detail = describe_description_path_fault(given, path);
     if (!detail.empty()) fault(pointer, detail);

@@ -44,7 +44,7 @@ inline constexpr std::array<std::string_view, 2> kErrorColumns{"error_reason", "
 [[nodiscard]] std::vector<std::string> find_other_columns(const ResultQuery& query,
                                                           const std::vector<std::string>& swept);
 
-/// Whether the table needs the parameters of its jobs for these columns.
+/// Parameters of its jobs that the table needs for these columns.
 [[nodiscard]] RowParameters needed_parameters(const std::vector<std::string>& others);
 
 inline constexpr std::string_view kSweepColumns =

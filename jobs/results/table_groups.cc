@@ -27,7 +27,7 @@ std::vector<std::string_view> metrics_of(const ResultTable& table) {
   return metrics;
 }
 
-/// Whether values of a column differ by more than rounding.
+/// @returns whether values of a column differ by more than rounding
 bool varies(const ResultTable& table, std::size_t column) {
   std::optional<double> least, most;
   for (const auto& row : table.rows) {

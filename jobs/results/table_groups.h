@@ -40,8 +40,8 @@ struct RowGroup {
 [[nodiscard]] std::string choose_free_metric(const nlohmann::json& sweep, const ResultTable& table,
                                              const std::string& wanted);
 
-/// Those of the wanted metrics that the table's linkages have; if they lack the first of them, their own
-/// first ones but times of peaks, as many at most.
+/// Wanted metrics that the table's linkages have; if they lack the first of them, their own first ones but
+/// times of peaks, as many at most.
 [[nodiscard]] std::vector<std::string> choose_metrics(const ResultTable& table,
                                                       std::span<const std::string_view> wanted);
 

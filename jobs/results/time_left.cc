@@ -105,12 +105,11 @@ double part_before(const SweepRow& row, const RivalSweep& rival) {
 /// Work of a sweep and of what its rivals have computed before its last job.
 std::optional<Work> calc_work_with_rivals(const SweepRow& row, std::string_view default_executor) {
   const auto executor = [&](const std::string& name) { return name.empty() ? default_executor : name; };
-  auto work = calc_work(row.costs, 1.0, row.unit_s, row.usual_rates);
+  auto work = calc_work(row.costs, 1.0, row.unit_s, row.cost_rates);
   if (!work) return std::nullopt;
   for (const RivalSweep& rival : row.rivals) {
     if (count_queued(row.costs) == 0.0 || executor(rival.executor) != executor(row.executor)) continue;
-    const auto before =
-        calc_work(rival.costs, part_before(row, rival), rival.unit_s, row.usual_rates);
+    const auto before = calc_work(rival.costs, part_before(row, rival), rival.unit_s, row.cost_rates);
     if (!before) return std::nullopt;
     work->add(*before, rival.weight);
   }

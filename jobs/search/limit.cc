@@ -11,7 +11,7 @@
 namespace jobs {
 namespace {
 
-/// Whether a comes before b from one end of the interval to the other.
+/// @returns whether a comes before b from one end of the interval to the other
 bool comes_before(const SearchInterval& interval, double a, double b) {
   return interval.from <= interval.to ? a < b : a > b;
 }
@@ -121,7 +121,7 @@ std::size_t most_halvings_of_integers(const SearchInterval& interval, double a, 
                       most_halvings_of_integers(interval, middle, b));
 }
 
-/// Whether a first value has been evaluated. Versions before this one did not round it to a decimal.
+/// @returns whether a first value has been evaluated. Versions before this one did not round it to a decimal.
 bool is_evaluated(const SearchInterval& interval, double x, const std::vector<Evaluation>& evaluations) {
   const double width = interval.logarithmic ? std::abs(x * std::log(interval.to / interval.from))
                                             : std::abs(interval.to - interval.from);

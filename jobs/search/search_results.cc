@@ -27,7 +27,7 @@ std::size_t evaluation_at(double x, CombinationResults& combination) {
 
 bool is_pending(const ResultRow& job) { return job.state == "queued" || job.state == "running"; }
 
-/// Why a job has no value: the metric does not apply, the job's error, or its state "cancelled".
+/// Reason for a job without value: the metric does not apply, the job's error, or its state "cancelled".
 std::string lost_reason_of(const ResultRow& job) {
   return job.state == "succeeded" ? std::string(kNoValue) : job.error_reason.value_or(job.state);
 }

@@ -115,7 +115,7 @@ ListedSweep listed_sweep(SQLite::Statement& found) {
           .runs = found.getColumn(4).getInt() != 0};
 }
 
-/// In strata: those with running jobs first, then by priority.
+/// Active sweeps in strata: those with running jobs first, then by priority.
 std::vector<ListedSweep> list_active_sweeps(const SQLite::Database& database) {
   SQLite::Statement list(
       database,
@@ -198,7 +198,7 @@ ActiveSweepSample read_sample(const SQLite::Database& database, const std::vecto
     const auto added = read.sweeps.emplace(sweep.seq, read_rival(database, sweep));
     is_incomplete = is_incomplete || misses_rate(added.first->second.costs);
   }
-  if (is_incomplete) read.usual_rates = read_cost_rates(database);
+  if (is_incomplete) read.cost_rates = read_cost_rates(database);
   return read;
 }
 
@@ -226,7 +226,7 @@ void ActiveSweeps::read_what_is_left(std::int64_t seq, SweepRow& row) {
   row.unit_s = read_unit(database_, seq, time);
   for (const auto& [rival, costs] : sample_->sweeps)
     if (rival != seq) row.rivals.push_back(costs);
-  row.usual_rates = sample_->usual_rates;
+  row.cost_rates = sample_->cost_rates;
 }
 
 }  // namespace jobs

@@ -244,7 +244,7 @@ void ClusterBatches::set_running(std::int64_t batch, const std::vector<std::uint
 
 void ClusterBatches::end(std::int64_t batch) {
   core_.writer.write_often(Durability::kSurvivesPowerLoss, [&](Statements& statements) {
-    core_.writer.disturb();
+    core_.writer.invalidate_order();
     const auto release = statements.use(
         "UPDATE jobs SET state = 'queued', started_ms = NULL, batch = NULL, place = NULL WHERE batch = ?");
     release->bind(1, batch);

@@ -136,8 +136,8 @@ std::optional<ClaimedJob> JobQueue::claim(Statements& statements, const Executor
 
 std::set<SweepTurn>& JobQueue::find_turns(Statements& statements, const ExecutorFilter& filter) {
   SweepTurns& turns = core_.turns;
-  if (turns.disturbances != core_.writer.disturbances()) turns.of_executor.clear();
-  turns.disturbances = core_.writer.disturbances();
+  if (turns.order_version != core_.writer.order_version()) turns.of_executor.clear();
+  turns.order_version = core_.writer.order_version();
   turns.default_executor = filter.default_executor;
   const auto found = turns.of_executor.find(filter.executor);
   if (found != turns.of_executor.end()) return found->second;
@@ -160,7 +160,7 @@ bool JobQueue::record(Statements& statements, const ClaimedJob& job, const Outco
 
 void JobQueue::requeue(const ClaimedJob& job) {
   core_.writer.write_often(Durability::kSurvivesProcess, [&](Statements& statements) {
-    core_.writer.disturb();
+    core_.writer.invalidate_order();
     const auto put_back = statements.use(
         "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE seq = ? AND id = ? AND attempt = ? AND "
         "state = 'running'");

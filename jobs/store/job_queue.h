@@ -99,7 +99,7 @@ class JobQueue {
   [[nodiscard]] std::set<SweepTurn>& find_turns(Statements& statements, const ExecutorFilter& filter);
   bool record(Statements& statements, const ClaimedJob& job, const Outcome& outcome);
   DeleteOutcome delete_sweep(SQLite::Database& database, const std::string& id, const std::string& study);
-  /// Deletes the last jobs of a sweep that may be deleted. Whether it has more.
+  /// Deletes the last jobs of a sweep that may be deleted. @returns whether jobs are left
   bool delete_some_jobs(const std::string& id, const std::string& study);
   /// Adds jobs to a sweep. False if there is none.
   bool add_jobs(SQLite::Database& database, const std::string& id, const std::vector<PlannedJob>& jobs,

@@ -93,7 +93,7 @@ void delete_jobs(SQLite::Database& database, const std::string& jobs, std::int64
   delete_unused(database, contents, results);
 }
 
-/// Whether a sweep can be deleted: kDone, or why not. @param sweep  its number
+/// @returns kDone if a sweep can be deleted, or the obstacle. @param sweep  its number
 DeleteOutcome find_delete_outcome(SQLite::Database& database, std::int64_t sweep, const std::string& id,
                                   const std::string& study) {
   SQLite::Statement of_study(database, "SELECT 1 FROM searches WHERE sweep = ? AND id <> ?");

@@ -44,12 +44,10 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     std::string id = core_.ids.make(kSweepPrefix, now_ms);
-    const std::int64_t sweep = insert_sweep(database, id, plan, request, now_ms);
+    const std::int64_t sweep =
+        insert_sweep(database, core_.ids, id, plan, request, {now_ms, ++core_.changes, max_queued});
     core_.turns.add(plan.executor, {.negative_priority = -plan.priority, .sweep = sweep},
-                    core_.writer.disturbances());
-    JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
-    for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
-    check_queue_limit(database, max_queued);
+                    core_.writer.order_version());
     store_sweep_response(database, idempotency, id, core_.active);
     core_.check_quota(database);
     return id;
@@ -61,11 +59,8 @@ void JobQueue::check_sweep(const SweepPlan& plan, const std::string& request, st
   try {
     core_.writer.write(Durability::kSurvivesProcess, [&](SQLite::Database& database) {
       const std::int64_t now_ms = now_unix_ms();
-      const std::string id = core_.ids.make(kSweepPrefix, now_ms);
-      JobInserter inserter(database, core_.ids, now_ms, core_.changes);
-      const JobOwner owner{insert_sweep(database, id, plan, request, now_ms), plan.reuse};
-      for (const PlannedJob& job : plan.jobs) inserter.insert(job, owner);
-      check_queue_limit(database, max_queued);
+      insert_sweep(database, core_.ids, core_.ids.make(kSweepPrefix, now_ms), plan, request,
+                   {now_ms, core_.changes, max_queued});
       core_.check_quota(database);
       throw Undo{};
     });
@@ -94,7 +89,7 @@ std::string JobQueue::add_job(const PlannedJob& job, std::size_t max_queued,
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto served = core_.served.find(kSingleJobs);
     core_.turns.add("", {.served = served == core_.served.end() ? 0 : served->second},
-                    core_.writer.disturbances());
+                    core_.writer.order_version());
     std::string id = JobInserter(database, core_.ids, now_unix_ms(), ++core_.changes).insert(job, {});
     check_queue_limit(database, max_queued);
     if (!idempotency.key.empty())

@@ -24,7 +24,7 @@ using StateCounts = std::array<std::int64_t, kJobStates.size()>;
 [[nodiscard]] std::string_view sweep_state(const StateCounts& counts);
 [[nodiscard]] bool has_ended(const StateCounts& counts);
 
-/// Job that is being computed.
+/// Cost so far of a running job.
 struct RunningCost {
   double simulated_s = 1.0;  ///< as CostOfKind counts it
   double elapsed_s = 0.0;    ///< since it was claimed
@@ -53,7 +53,7 @@ using Costs = std::map<std::string, CostOfKind>;  ///< by PlannedJob::kind
 struct RivalSweep {
   std::int64_t priority = 0;
   std::string executor{};    ///< empty: it named none
-  double unit_s = 1.0;       ///< what CostOfKind counts as 1 s, [s]
+  double unit_s = 1.0;       ///< simulated time that CostOfKind counts as 1 s, [s]
   Costs costs{};
   double weight = 1.0;       ///< number of sweeps that it stands for
 };
@@ -67,9 +67,9 @@ struct SweepRow {
   bool replicated = false;
   std::int64_t priority = 0;
   std::string executor;                              ///< empty: it named none
-  std::optional<std::string> study_id;               ///< search or wear study that its jobs evaluate
+  std::optional<std::string> study_id;               ///< study that its jobs evaluate
   std::int64_t created_ms = 0;
-  /// Of its first job, and of its last one if all have ended
+  /// Start of its first job, and end of its last one if all have ended
   std::optional<std::int64_t> started_ms, ended_ms;
   StateCounts counts{};
   // The rest only of sweeps that have not ended:
@@ -77,7 +77,7 @@ struct SweepRow {
   double unit_s = 1.0;                               ///< as RivalSweep's
   std::vector<RivalSweep> rivals;                    ///< others that have not ended, or a sample
   /// Wall time a simulated second by kind, of the store's last results; empty if nothing needs it
-  std::map<std::string, double> usual_rates;
+  std::map<std::string, double> cost_rates;
 };
 
 /// The run behind a result.
@@ -104,10 +104,10 @@ struct JobRow {
   std::optional<RunRow> run;
 };
 
-/// Study: a search or a wear study, whose evaluations are the jobs of a sweep.
+/// Study, whose evaluations are the jobs of a sweep.
 struct StudyRow {
   std::string id, sweep_id, name, request, state;
-  std::optional<std::string> error;  ///< why it could not go on
+  std::optional<std::string> error;  ///< fault that stopped the study
   std::int64_t created_ms = 0;
   std::optional<std::int64_t> ended_ms;
 };
@@ -135,7 +135,7 @@ struct ResultRow {
 /// All jobs of a sweep in one snapshot of the store.
 struct SweepResults {
   SweepRow sweep;
-  /// In the order in which the sweep was expanded, what was added to it later last
+  /// Rows in the order in which the sweep was expanded, later additions last
   std::vector<ResultRow> rows;
 };
 

@@ -33,19 +33,19 @@ class Store {
     core_.writer.keep(kept);
     core_.lock.keep(kept);
   }
-  /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. What has
-  /// not been released is used again.
+  /// Makes the file smaller by what deleting has freed, which needs room on the disk for a while. Room that
+  /// is not released is used again.
   void release_free_pages();
 
   /// Checks that the disk is not full, and that results are stored. A store on a full disk is opened for
   /// reading, cancelling and deleting, and can be added to as soon as there is room.
   /// @throws StorageError, full
   void check_room();
-  /// Why results are not stored, as long as none is; empty: they are.
+  /// Reason for not storing results, as long as none is stored; empty: they are stored.
   [[nodiscard]] std::string refusal() const { return core_.refusal.reason(); }
   /// Bytes that may still be added, by the limits and by what the disk has left.
   [[nodiscard]] std::int64_t find_bytes_left();
-  /// In memory: the disk was full, and no room was held for opening the store.
+  /// Place of the log's index: in memory if the disk was full, and no room was held for opening the store.
   [[nodiscard]] LogIndex log_index() const { return core_.writer.log_index(); }
 
  private:

@@ -18,12 +18,12 @@
 
 namespace jobs {
 
-/// Whether SQLite failed because the disk, or the share of this user or process, is full. SQLite's codes know
-/// the disk only; the error of its last system call tells of the others.
+/// Disk after a failure of SQLite: full if the disk, or the share of this user or process, was the cause.
+/// SQLite's codes know the disk only; the error of its last system call tells of the others.
 /// @param database  that failed; null: unknown
 [[nodiscard]] Disk disk_state(const SQLite::Exception& error, const SQLite::Database* database);
 
-/// Whether a code of SQLite's, extended or not, says that the file is damaged or no database.
+/// @returns whether a code of SQLite's, extended or not, says that the file is damaged or no database
 [[nodiscard]] bool is_damage(int sqlite_code);
 
 /// Runs database work and throws StorageError in the place of SQLite's exceptions.
@@ -114,19 +114,20 @@ class Writer {
   /// Runs work(database) in one transaction: all of it, or nothing if it throws.
   template <typename Work>
   auto write(Durability durability, Work&& work) {
-    return write_with(durability, std::forward<Work>(work), database_, Disturbs::kYes);
+    return write_with(durability, std::forward<Work>(work), database_, Order::kInvalidated);
   }
 
-  /// Number of the transactions, with the one at hand, that may have queued jobs: all but those of
-  /// write_often() that did not fail. Under the writer's lock, within work.
-  [[nodiscard]] std::uint64_t disturbances() const { return disturbances_; }
+  /// Version of the scheduling order, for who keeps one: number of the transactions, with the one at hand,
+  /// that may have queued jobs. Those of write_often() that did not fail do not count. Under the writer's
+  /// lock, within work.
+  [[nodiscard]] std::uint64_t order_version() const { return order_version_; }
   /// Marks the transaction at hand as one that queues jobs. Within work of write_often().
-  void disturb() { ++disturbances_; }
+  void invalidate_order() { ++order_version_; }
 
   /// The same for work(statements), which is done often.
   template <typename Work>
   auto write_often(Durability durability, Work&& work) {
-    return write_with(durability, std::forward<Work>(work), statements_, Disturbs::kNo);
+    return write_with(durability, std::forward<Work>(work), statements_, Order::kKept);
   }
 
   /// Says that the store has shown no damage. Until then its file is left as it is, however this ends.
@@ -149,27 +150,27 @@ class Writer {
   void empty_log();
 
  private:
-  enum class Disturbs { kYes, kNo };
+  enum class Order { kInvalidated, kKept };
 
   /// Counts the transaction unless it did not fail.
   struct FailureCount {
-    std::uint64_t& disturbances;
+    std::uint64_t& order_version;
     bool failed = true;
     ~FailureCount() {
-      if (failed) ++disturbances;
+      if (failed) ++order_version;
     }
   };
 
   template <typename Work, typename With>
-  auto write_with(Durability durability, Work&& work, With& with, Disturbs disturbs) {
+  auto write_with(Durability durability, Work&& work, With& with, Order order) {
     const std::lock_guard lock(mutex_);
-    if (disturbs == Disturbs::kYes) ++disturbances_;
+    if (order == Order::kInvalidated) ++order_version_;
     return with_storage_errors([&] { return run_transaction(durability, work, with); }, &database_);
   }
 
   template <typename Work, typename With>
   auto run_transaction(Durability durability, Work& work, With& with) {
-    FailureCount count{.disturbances = disturbances_};
+    FailureCount count{.order_version = order_version_};
     file_lock_.check();
     roll_back_unfinished(database_);
     set_durability(durability);
@@ -199,7 +200,7 @@ class Writer {
   SQLite::Database database_;
   Statements statements_{database_};
   Durability durability_ = Durability::kSurvivesPowerLoss;
-  std::uint64_t disturbances_ = 1;
+  std::uint64_t order_version_ = 1;
   bool accepted_ = false;
 };
 

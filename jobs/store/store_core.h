@@ -19,8 +19,8 @@
 
 namespace jobs {
 
-/// Why the store, as large as it may be, has no room for results: while the last one that came was refused.
-/// (What the disk has left is looked at whenever somebody asks.)
+/// Reason for the refusal of the last result by a store that is as large as it may be; empty if it was
+/// stored. (The room left on the disk is looked at whenever somebody asks.)
 class ResultRefusal {
  public:
   /// Calls store(), and remembers whether there was room. @throws whatever store() does
@@ -35,7 +35,7 @@ class ResultRefusal {
       throw;
     }
   }
-  /// Empty: there was room for the last one.
+  /// @returns empty if there was room for the last result
   [[nodiscard]] std::string reason() const {
     const std::lock_guard lock(mutex_);
     return reason_;

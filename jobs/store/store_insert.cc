@@ -31,7 +31,7 @@ std::string JobInserter::insert(const PlannedJob& job, const JobOwner& owner) {
   const auto result = owner.reuse ? known_result(content) : std::nullopt;
   std::string id = ids_.make(kJobPrefix, now_ms_);
   add_job_.reset();
-  add_job_.clearBindings();  // what is not bound below is null
+  add_job_.clearBindings();  // parameters that are not bound below are null
   add_job_.bind(1, id);
   if (owner.sweep) add_job_.bind(2, *owner.sweep);
   if (job.replicate) add_job_.bind(3, static_cast<std::int64_t>(*job.replicate));
@@ -72,8 +72,8 @@ std::optional<std::int64_t> JobInserter::known_result(std::int64_t content) {
   return result.isNull() ? std::nullopt : std::optional(result.getInt64());
 }
 
-std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan,
-                          const std::string& request, std::int64_t now_ms) {
+std::int64_t insert_sweep(SQLite::Database& database, IdMaker& ids, const std::string& id,
+                          const SweepPlan& plan, const std::string& request, const Submission& submission) {
   SQLite::Statement add(
       database,
       "INSERT INTO sweeps (id, name, request, swept, replicated, priority, created_ms, executor) VALUES (?, "
@@ -84,10 +84,14 @@ std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, con
   add.bind(4, nlohmann::json(plan.swept).dump());
   add.bind(5, plan.replicated ? 1 : 0);
   add.bind(6, plan.priority);
-  add.bind(7, now_ms);
+  add.bind(7, submission.now_ms);
   if (!plan.executor.empty()) add.bind(8, plan.executor);
   add.exec();
-  return database.getLastInsertRowid();
+  const std::int64_t sweep = database.getLastInsertRowid();
+  JobInserter inserter(database, ids, submission.now_ms, submission.change);
+  for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
+  check_queue_limit(database, submission.max_queued);
+  return sweep;
 }
 
 void check_queue_limit(SQLite::Database& database, std::size_t max_queued) {

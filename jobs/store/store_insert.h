@@ -37,9 +37,16 @@ class JobInserter {
   SQLite::Statement add_content_, find_content_, find_result_, add_job_;
 };
 
-/// Stores a sweep without its jobs. Returns its number.
-std::int64_t insert_sweep(SQLite::Database& database, const std::string& id, const SweepPlan& plan,
-                          const std::string& request, std::int64_t now_ms);
+/// Numbers of a submission.
+struct Submission {
+  std::int64_t now_ms = 0;
+  std::int64_t change = 0;  ///< of the jobs that succeed at once
+  std::size_t max_queued = 0;
+};
+
+/// Stores a sweep with its jobs. Returns its number. Throws QueueFull if there is no room for them.
+std::int64_t insert_sweep(SQLite::Database& database, IdMaker& ids, const std::string& id,
+                          const SweepPlan& plan, const std::string& request, const Submission& submission);
 /// Number of jobs that wait, here or in the queue of a cluster: both counts walk an index that holds little
 /// else.
 inline constexpr const char* kQueuedCount =

@@ -71,7 +71,7 @@ struct flock lock_of_file(short type) {
   return lock;
 }
 
-/// Whether another descriptor holds that lock; nothing is locked by asking.
+/// @returns whether another descriptor holds the lock of a file; nothing is locked by asking
 bool is_locked(int file) {
   struct flock lock = lock_of_file(F_RDLCK);
   return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
@@ -152,7 +152,7 @@ void check_log_is_here(int file, const std::filesystem::path& store) {
                      SQLITE_CANTOPEN);
 }
 
-/// Whether a name leads to the file that a descriptor has.
+/// @returns whether a name leads to the file that a descriptor has
 bool is_named(int file, const std::string& path) {
   struct stat opened {};
   struct stat named {};

@@ -84,7 +84,7 @@ class StoreFileLock {
 /// Not for a file that this process serves: closing it takes away SQLite's locks.
 void check_name_of_store(const std::filesystem::path& store);
 
-/// Whether a system call failed because the disk, or the share of this user or process, is full.
+/// Disk after a failed system call: full if the disk, or the share of this user or process, was the cause.
 [[nodiscard]] Disk disk_state(int system_error);
 
 }  // namespace jobs

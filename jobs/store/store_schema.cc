@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
-/// Step i brings a store from version i to i + 1. What has been released is never changed, only added to.
+/// Step i brings a store from version i to i + 1. A released step is never changed; new ones follow.
 constexpr std::array<const char*, 6> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,

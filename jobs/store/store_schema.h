@@ -7,7 +7,7 @@
 
 namespace jobs {
 
-/// Whether a database is a store of this program, of whatever version. An empty file is none.
+/// @returns whether a database is a store of this program, of whatever version. An empty file is none.
 [[nodiscard]] bool is_store(SQLite::Database& database);
 
 /// Makes a new file a store, or brings an older one to the newest form; each step is one transaction.

@@ -61,10 +61,8 @@ std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, cons
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const std::int64_t now_ms = now_unix_ms();
     const std::string sweep_id = core_.ids.make(kSweepPrefix, now_ms);
-    const std::int64_t sweep = insert_sweep(database, sweep_id, plan, sweep_request, now_ms);
-    JobInserter inserter(database, core_.ids, now_ms, ++core_.changes);
-    for (const PlannedJob& job : plan.jobs) inserter.insert(job, {sweep, plan.reuse});
-    check_queue_limit(database, max_queued);
+    const std::int64_t sweep = insert_sweep(database, core_.ids, sweep_id, plan, sweep_request,
+                                            {now_ms, ++core_.changes, max_queued});
     std::string id = insert_study(database, core_.ids.make(prefix, now_ms), sweep, request);
     store_study_response(database, idempotency, id, core_.active);
     core_.check_quota(database);

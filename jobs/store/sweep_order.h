@@ -15,8 +15,8 @@ namespace jobs {
 
 inline constexpr std::int64_t kSingleJobs = 0;
 
-/// SQL: that no other job of the same content is being computed anywhere, so that j need not wait for its
-/// result.
+/// SQL of the condition that no other job of the same content is being computed anywhere, so that j need not
+/// wait for its result.
 inline constexpr const char* kNobodyComputesIt =
     "(j.reuse = 0 OR NOT EXISTS (SELECT 1 FROM jobs r WHERE r.content = j.content AND r.state = 'running') "
     "AND NOT EXISTS (SELECT 1 FROM jobs r WHERE r.content = j.content AND r.batch IS NOT NULL))";
@@ -47,13 +47,13 @@ struct SweepTurn {
 struct SweepTurns {
   std::map<std::string, std::set<SweepTurn>> of_executor;
   std::string default_executor;
-  std::uint64_t disturbances = 0;  ///< Writer::disturbances() that the order knows of
+  std::uint64_t order_version = 0;  ///< Writer::order_version() that the order knows of
 
   /// Adds a sweep that the transaction at hand has made, so that the order need not be found again.
-  /// @param now  Writer::disturbances() within that transaction
+  /// @param now  Writer::order_version() within that transaction
   void add(const std::string& executor, const SweepTurn& turn, std::uint64_t now) {
-    if (disturbances + 1 != now) return;
-    disturbances = now;
+    if (order_version + 1 != now) return;
+    order_version = now;
     const auto found = of_executor.find(executor.empty() ? default_executor : executor);
     if (found != of_executor.end()) found->second.insert(turn);
   }

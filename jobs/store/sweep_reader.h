@@ -24,11 +24,11 @@ class SweepReader {
 
   [[nodiscard]] std::optional<SweepRow> find_sweep(const std::string& id) const;
   [[nodiscard]] PlanCosts find_costs(const SweepPlan& plan) const;
-  /// Whether no job of the sweep is left to compute; empty if there is no such sweep. Costs the same for
-  /// sweeps of any size.
+  /// @returns whether no job of the sweep is left to compute; empty if there is no such sweep. The cost is
+  /// the same for sweeps of any size.
   [[nodiscard]] std::optional<bool> has_sweep_ended(const std::string& id) const;
   [[nodiscard]] std::optional<JobRow> find_job(const std::string& id) const;
-  /// Empty if there is no such job
+  /// @returns whether a job has ended; empty if there is no such job
   [[nodiscard]] std::optional<bool> has_job_ended(const std::string& id) const;
   /// Newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<SweepRow> list_sweeps(const std::string& state, const std::string& before,

@@ -30,7 +30,7 @@ struct NextCases {
   nlohmann::ordered_json cases =
       nlohmann::ordered_json::array();   ///< for its sweep; none: wait for running jobs
   std::optional<std::string> end_state;  ///< the study has ended
-  std::optional<std::string> error;      ///< why it could not go on
+  std::optional<std::string> error;      ///< fault that stopped the study
 };
 
 /// Sampler of a running study, with the ask-and-tell interface of adaptive sampling (Optuna's Study.ask and

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLargestDegree = 12;
 constexpr double kPointsPerTerm = 2.0;
-constexpr double kMostTerms = 300.0;  // what can be fitted while a user waits
+constexpr double kMostTerms = 300.0;  // as many as can be fitted while a user waits
 
 /// All lists of degrees whose sum is at most the degree.
 void add_exponents(std::size_t inputs, int degree, std::vector<int>& begun,

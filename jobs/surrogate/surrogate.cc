@@ -149,7 +149,7 @@ std::size_t find_input(const std::vector<Input>& inputs, const std::string& name
       std::vector<Fault>{{pointer, "\"" + name + "\": " + describe_unknown_key(name, known)}});
 }
 
-/// What is known of a combination without a surrogate.
+/// Result of a combination without a surrogate: its points and its grids.
 json unfitted_json(const std::vector<Point>& points, const std::vector<Input>& inputs, std::size_t x,
                    std::optional<std::size_t> y) {
   json made{{"points", points.size()}, {"degree", nullptr}, {"terms", nullptr},

@@ -13,7 +13,7 @@ struct ZSTD_CCtx_s;
 
 namespace jobs {
 
-// The pieces that packed blobs are made of. What reads throws DamagedTrajectory when there is too little.
+// The pieces that packed blobs are made of. Readers throw DamagedTrajectory when there are too few bytes.
 
 static_assert(std::endian::native == std::endian::little, "blobs are little-endian");
 

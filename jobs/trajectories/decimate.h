@@ -22,7 +22,8 @@ struct Stretch {
 [[nodiscard]] std::vector<Stretch> stretches_of(std::size_t samples, std::size_t channels,
                                                 std::size_t points);
 
-/// Marks those of consecutive samples in which a channel has its extremes. What is no number is no extreme.
+/// Marks those of consecutive samples in which a channel has its extremes. A value that is no number is no
+/// extreme.
 /// @param values  of the samples from `first` on
 void mark_extremes(std::span<const double> values, std::size_t first, std::vector<bool>& kept);
 

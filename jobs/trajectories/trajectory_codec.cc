@@ -92,8 +92,8 @@ std::size_t find_original(const engine::Trajectory& trajectory, std::size_t i) {
   return k;
 }
 
-/// The i-th column. What has been met already (the pose of the slider repeats its position, say) becomes a
-/// copy of it; numbers that are the same when rounded are seen by their bytes.
+/// The i-th column. A column that has been met already (the pose of the slider repeats its position, say)
+/// becomes a copy of that one; numbers that are the same when rounded are seen by their bytes.
 /// @param before  the columns before it
 EncodedColumn encode_new_column(const engine::Trajectory& trajectory, std::size_t i,
                                 std::span<const EncodedColumn> before, SinglePacker& packer) {

@@ -118,7 +118,7 @@ class WearMapper {
 
   void add_ring(int ring, ResultTable& table) const {
     const double position_mm =
-        rings_ == 1 ? 0.0 : length_mm_ * (static_cast<double>(ring - 1) / (rings_ - 1) - 0.5);
+        ring_position_mm(static_cast<std::size_t>(ring - 1), static_cast<std::size_t>(rings_), length_mm_);
     const std::vector<double> work = gather_work(ring);
     for (std::size_t s = 0; s < work.size(); ++s) {
       const double depth_um = 1e6 * query_.wear_coefficient * work[s] / area_;
@@ -183,6 +183,10 @@ std::vector<std::string> wear_channels(const WornBearing& bearing) {
     if (worn) channels.push_back(key + "_penetration_j_m");
   }
   return channels;
+}
+
+double ring_position_mm(std::size_t ring, std::size_t rings, double length_mm) {
+  return rings == 1 ? 0.0 : length_mm * (static_cast<double>(ring) / static_cast<double>(rings - 1) - 0.5);
 }
 
 ResultTable make_wear_map(const WornBearing& bearing, const engine::Trajectory& run, const WearQuery& query) {

@@ -6,6 +6,7 @@
 
 #include "jobs/base/optional_json.h"
 #include "jobs/results/resource_json.h"
+#include "jobs/wear/wear.h"
 
 namespace jobs {
 namespace {
@@ -25,8 +26,7 @@ Deepest find_deepest(const WearGrid& depth, double length_mm) {
     for (std::size_t s = 0; s < depth[r].size(); ++s) {
       if (depth[r][s] <= deepest.depth_um) continue;
       deepest.depth_um = depth[r][s];
-      deepest.position_mm =
-          rings == 1 ? 0.0 : length_mm * (static_cast<double>(r) / static_cast<double>(rings - 1) - 0.5);
+      deepest.position_mm = ring_position_mm(r, rings, length_mm);
       deepest.angle_rad =
           2.0 * std::numbers::pi * (static_cast<double>(s) + 0.5) / static_cast<double>(depth[r].size());
     }
@@ -78,7 +78,7 @@ json cycles_json(const ResultTable& table, const WearHistory& history) {
   return cycles;
 }
 
-/// Where each metric stands in a table of jobs.
+/// Column of each metric in a table of jobs.
 std::vector<std::size_t> find_metric_columns(const ResultTable& jobs) {
   std::vector<std::size_t> columns;
   for (const engine::QuantityInfo& metric : engine::metric_table())

@@ -86,7 +86,7 @@ class WearParser {
 
   void read_rule() {
     take_number("wear_coefficient_m2_n", kWearCoefficientRange, "m^2/N", study_.query.wear_coefficient);
-    take_count("sectors", kWearSectorsRange, study_.query.sectors);
+    take_count("sectors", kBoreSectorsRange, study_.query.sectors);
     take_number("hours", kPositiveRange, "h", study_.rule.hours);
     take_number("worn_clearance_mm", kPositiveRange, "mm", study_.query.worn_clearance);
     take_number("max_depth_step_um", kDepthStepRange, "um", study_.rule.depth_step_um);

@@ -23,7 +23,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 bool is_option(const std::string& word) { return word.size() > 1 && word.starts_with('-'); }
 
-/// Whether the word after an option is its value, in any command that has the option.
+/// @returns whether the word after an option is its value, in any command that has the option
 bool takes_next_word(const CLI::App& app, const std::string& word) {
   const auto takes = [&](const CLI::App* command) {
     const CLI::Option* const option = command->get_option_no_throw(word);

@@ -26,7 +26,7 @@ namespace server::commands {
 /// @throws BadInput
 void check_environment(CLI::App& app);
 
-/// Whether an option stands on the command line, with or without its value in the same word.
+/// @returns whether an option stands on the command line, with or without its value in the same word
 [[nodiscard]] bool is_given(const std::vector<std::string>& words, const std::string& option);
 
 }  // namespace server::commands

@@ -12,7 +12,7 @@ class App;
 
 namespace server::commands {
 
-/// What the user says of the cluster, in the units of the command line.
+/// The user's settings of the cluster, in the units of the command line.
 struct ClusterOptions {
   std::string folder, program, prefix, partition, account, qos, constraint, prologue;
   std::vector<std::string> options;

@@ -9,7 +9,7 @@
 
 namespace server::commands {
 
-/// How the program ends, for scripts.
+/// Exit status of the program, for scripts.
 enum ExitCode : int {
   kDone = 0,
   kJobFailed = 1,
@@ -18,7 +18,7 @@ enum ExitCode : int {
   kInterrupted = 130,   ///< as a shell says it of Ctrl-C
 };
 
-/// What the user gave cannot be used; one sentence says why.
+/// The user's input cannot be used; one sentence says why.
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -61,7 +61,7 @@ std::string options_with_values(const std::vector<CommandEntry>& commands) {
   return text;
 }
 
-/// What bash is to offer as an option's value.
+/// Code by which bash offers an option's values.
 std::string bash_values(const OptionEntry& option, const std::string& command) {
   if (option.value == kIdType) {
     return "mapfile -t COMPREPLY < <(compgen -W \"$(" +
@@ -95,7 +95,7 @@ std::string fish_values(const OptionEntry& option) {
   return option.value == kFile ? " -r -F" : " -x";
 }
 
-/// What fish is to offer after a command: an option, or an argument of which it knows something.
+/// Line by which fish offers an option after a command, or the known values of an argument.
 /// @param here  condition that the command stands in the line
 std::string fish_line(const OptionEntry& option, const std::string& command, const std::string& here) {
   const std::string begin = "complete -c rpsup" + here;

@@ -8,8 +8,8 @@ namespace server::commands {
 
 struct ExportOptions {
   std::string store;                   ///< SQLite file
-  std::string file;                    ///< where the copy goes; must not exist
-  std::string sweep{};                 ///< whose trajectories are written instead; empty: none
+  std::string file;                    ///< destination of the copy; must not exist
+  std::string sweep{};                 ///< its trajectories are written instead; empty: none
   std::string channels{};              ///< of those, with commas between; empty: all
   std::optional<double> from{}, to{};  ///< of those, [s]
   std::string format{};                ///< of those; empty: that of the suffix

@@ -15,7 +15,7 @@ class LineQueue {
 
   /// @param descriptor  stays the caller's, for as long as the process runs
   explicit LineQueue(int descriptor);
-  ~LineQueue();  ///< what is queued is written within half a second, or not at all
+  ~LineQueue();  ///< writes queued lines within half a second, or not at all
   LineQueue(const LineQueue&) = delete;
   LineQueue& operator=(const LineQueue&) = delete;
 

@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// What is said of an option: its help, what is allowed, its default, its variable.
+/// Text about an option: its help, its allowed values, its default, its variable.
 std::string describe(const OptionEntry& option) {
   std::string text = escaped(option.help) + ".";
   if (option.required) text += " Required.";

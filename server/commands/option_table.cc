@@ -7,7 +7,7 @@ namespace server::commands {
 
 namespace {
 
-/// What the parser says of a value, "INT:INT in [1 - 256]" or "TEXT:{csv,json}", taken apart.
+/// Takes the parser's text about a value apart: "INT:INT in [1 - 256]" or "TEXT:{csv,json}".
 void read_type_name(const std::string& text, OptionEntry& entry) {
   const auto colon = text.find(':');
   entry.value = text.substr(0, colon);

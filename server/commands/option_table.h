@@ -18,7 +18,7 @@ inline constexpr const char* kIdType = "ID";
 struct OptionEntry {
   std::string name;                  ///< "--port"; "file" for an argument
   bool argument = false;             ///< has no name on the command line
-  std::string value;                 ///< what its value is, "FILE" or "INT"; empty: it takes none
+  std::string value;                 ///< type of its value, "FILE" or "INT"; empty: it takes none
   std::string allowed;               ///< "[1 - 256]"; empty: anything
   std::vector<std::string> choices;  ///< the words allowed; empty: others too
   std::string help;
@@ -32,7 +32,7 @@ struct OptionEntry {
 struct CommandEntry {
   std::string name;
   std::string help;
-  std::string footer;                ///< what follows the options, in lines
+  std::string footer;  ///< text behind the options, in lines
   std::vector<OptionEntry> options;
 };
 

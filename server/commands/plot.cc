@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMargin = 10;          // characters for the numbers at the left
 constexpr std::size_t kDotsAcross = 2, kDotsDown = 4;  // of one character
 
-/// Whether a channel of that name is there, and which one.
+/// Index of the first channel of a wanted name; empty if there is none.
 std::optional<std::size_t> find_channel(const engine::Trajectory& trajectory,
                                         const std::function<bool(std::string_view)>& is_wanted) {
   for (std::size_t c = 0; c < trajectory.channels.size(); ++c) {
@@ -27,7 +27,7 @@ std::optional<std::size_t> find_channel(const engine::Trajectory& trajectory,
   return std::nullopt;
 }
 
-/// What is drawn: between which two columns it lies, and its title.
+/// Drawn band: the two columns between which it lies, and its title.
 struct Drawn {
   const std::vector<double>& least;
   const std::vector<double>& most;
@@ -60,7 +60,7 @@ Drawn choose_drawn(const engine::Trajectory& trajectory) {
   return find_acceleration(trajectory);
 }
 
-/// Where the axis of values begins and ends: multiples of a round step around the values and zero.
+/// Axis of the values. Its ends are multiples of a round step around the values and zero.
 struct Axis {
   double bottom = -1.0, top = 1.0, step = 1.0;
 };

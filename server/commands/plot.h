@@ -26,7 +26,7 @@ struct AccelerationBand {
 
 enum class Characters { kBraille, kAscii };
 
-/// How many columns draw_for_terminal() can show in such a terminal.
+/// Number of columns that draw_for_terminal() can show in such a terminal.
 [[nodiscard]] std::size_t plot_columns(const TerminalSize& size);
 
 /// A picture of characters, its axes labelled; lines end in '\n'.

@@ -77,7 +77,7 @@ void add_column_options(CLI::App& command, MeasureOptions& options) {
       ->allow_extra_args(false);
 }
 
-/// What is known of the sensors and of the run.
+/// Adds the options that describe the sensors and the run.
 void add_description_options(CLI::App& command, MeasureOptions& options) {
   command
       .add_option("--sensors", options.sensors,
@@ -119,7 +119,7 @@ CLI::Option* add_output_option(CLI::App& command, std::string& output, const cha
       ->envname("RPSUP_OUTPUT");
 }
 
-/// Which resources are listed where no id is given.
+/// Adds the options that choose the listed resources if no id is given.
 void add_list_options(CLI::App& command, CLI::Option* id, StatusOptions& options) {
   command.add_option("--kind", options.kind, "Kind of what is listed without an id")
       ->check(CLI::IsMember(words_of(kAllKinds)))
@@ -192,7 +192,7 @@ Command add_results(CLI::App& app) {
   return make_remote_command(command, options, results);
 }
 
-/// Which samples of a trajectory or a measurement are printed.
+/// Adds the options that choose the printed samples of a trajectory or a measurement.
 void add_sample_options(CLI::App& command, TrajectoryOptions& options) {
   command.add_option("--from", options.from, "Begin in s")->type_name("FLOAT");
   command.add_option("--to", options.to, "End in s")->type_name("FLOAT");

@@ -32,7 +32,7 @@ struct KindInfo {
 inline constexpr std::array<KindInfo, 7> kKinds{
     {{"sweep", "sweep", jobs::kSweepPrefix, "/v1/sweeps", "sweeps"},
      {"job", "job", jobs::kJobPrefix, "/v1/jobs", "jobs"},
-     study_kind_info(jobs::StudyKind::kLimit, "searches"),
+     study_kind_info(jobs::StudyKind::kSearch, "searches"),
      study_kind_info(jobs::StudyKind::kWear, "wear"),
      study_kind_info(jobs::StudyKind::kOptimisation, "optimisations"),
      study_kind_info(jobs::StudyKind::kFit, "fits"),

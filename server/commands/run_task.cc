@@ -19,7 +19,8 @@ namespace {
 
 constexpr int kMostThreads = 256;
 
-/// What Slurm tells a task about itself.
+/// Number that Slurm gives a task about itself; -1 if there is none.
+/// @throws BadInput if it is no such number
 int number_in_environment(const char* name, int largest) {
   const char* const text = std::getenv(name);
   if (text == nullptr) return -1;

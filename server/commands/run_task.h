@@ -12,8 +12,7 @@ struct RunTaskOptions {
   int threads = 0;      ///< 0: what Slurm says in SLURM_CPUS_PER_TASK, or one
 };
 
-/// What a node of a cluster runs: computes the jobs of one task and leaves their results in the shared
-/// folder.
+/// Computes the jobs of one task, on a node of a cluster, and leaves their results in the shared folder.
 /// @returns an exit code; kDone only if every job has a result
 int run_task(const RunTaskOptions& options);
 

@@ -38,7 +38,7 @@ void check_plot_file(const std::string& plot) {
   check_output_file("--plot", plot);
 }
 
-/// What the user's locale can show.
+/// Characters that the user's locale can show.
 Characters terminal_characters() {
   for (const char* const name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
     const char* const value = std::getenv(name);

@@ -32,7 +32,8 @@ using nlohmann::ordered_json;
 
 StudyKind study_kind_of(Kind kind) {
   switch (kind) {
-    case Kind::kSearch: return StudyKind::kLimit;
+    case Kind::kSearch:
+      return StudyKind::kSearch;
     case Kind::kWearStudy: return StudyKind::kWear;
     case Kind::kOptimisation: return StudyKind::kOptimisation;
     default: return StudyKind::kFit;
@@ -127,7 +128,7 @@ std::string store_here(jobs::Service& service, const MeasuredFile& file, const o
   return stored.at("id");
 }
 
-/// What rpsup measure is given to store such a file.
+/// Options with which rpsup measure stores such a file.
 MeasureOptions make_measure_options(const RemoteOptions& remote, const std::string& path,
                                     const ordered_json& entry) {
   MeasureOptions options{.remote = remote, .file = path, .name = {}, .time = {}, .channels = {}};

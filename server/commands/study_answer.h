@@ -14,7 +14,7 @@ namespace server::commands {
 /// @param study  as GET /v1/searches/{id}, say, shows it
 [[nodiscard]] std::string answer_text(Kind kind, const nlohmann::json& study);
 
-/// Whether a study has given what it was asked for.
+/// @returns whether a study has given what it was asked for
 [[nodiscard]] bool has_answer(Kind kind, const nlohmann::json& study);
 
 }  // namespace server::commands

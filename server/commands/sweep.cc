@@ -34,8 +34,8 @@ bool follow_sweep(jobs::Service& service, const std::string& id, const EndSignal
 
 void interrupt(jobs::Service& service, const std::string& id) {
   try {
-    // What is left would start again with the store, beside the sweep that the same command submits next
-    // time.
+    // Jobs that are left would start again with the store, beside the sweep that the same command submits
+    // next time.
     service.cancel_sweep(id);
   } catch (const jobs::WrongState&) {
     // It has ended since the last look: nothing is left to cancel.

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kBetweenLooks = 500ms;
-constexpr auto kBetweenStudies = 1s;  // whose answers may be long
+constexpr auto kBetweenStudies = 1s;  // answers of studies may be long
 constexpr auto kPatience = 30s;       // with a service that has answered before
 
 bool has_ended(const Json& resource) {

@@ -11,7 +11,7 @@
 
 namespace server {
 
-/// What a monitoring system asks a service for, in the text format of Prometheus. All members may be called
+/// Figures of a service for a monitoring system, in the text format of Prometheus. All members may be called
 /// from any thread.
 class Metrics {
  public:

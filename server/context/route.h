@@ -43,7 +43,7 @@ struct Route {
   std::vector<int> problems = {};              ///< statuses beside those of any request
 };
 
-/// Whether a route changes something that is there, which If-Match guards.
+/// @returns whether a route changes something that is there, which If-Match guards
 [[nodiscard]] inline bool changes_existing(const Route& route) {
   return route.method != "GET" && route.pattern.find("{id}") != std::string::npos;
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kShortestToken = 16;
 constexpr std::size_t kLongestToken = 512;
 
-/// What follows the name of a scheme, in whatever case that is written; empty for another scheme.
+/// Text after the name of a scheme, in upper or lower case; empty for another scheme.
 std::string_view after_scheme(std::string_view authorization, std::string_view scheme) {
   if (authorization.size() <= scheme.size() || authorization[scheme.size()] != ' ') return {};
   const bool same =

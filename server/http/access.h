@@ -23,8 +23,8 @@ class AccessCheck {
   std::string digest_;  ///< of the token, so that comparing tells nothing of its length; empty: there is none
 };
 
-/// Whether a path is for programs that watch over this one: it tells nothing of what is stored, needs no
-/// token, and is answered under every name of the host.
+/// @returns whether a path is for programs that watch over this one: it tells nothing of what is stored,
+/// needs no token, and is answered under every name of the host
 [[nodiscard]] bool is_probe(std::string_view path);
 
 /// Says what is wrong with a token, empty if nothing is: it is at least 16 visible ASCII characters without a

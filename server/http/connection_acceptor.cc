@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t kBytesAtATime = 16 * 1024;
 constexpr std::string_view kEndOfHead = "\r\n\r\n";
 
-/// Whether accepting has failed for good, and not for this connection or for want of files or memory.
+/// @returns whether accepting has failed for good, and not for this connection or for want of files or memory
 bool is_final(int accept_error) {
   return accept_error == EBADF || accept_error == EINVAL || accept_error == ENOTSOCK ||
          accept_error == EOPNOTSUPP || accept_error == EFAULT;

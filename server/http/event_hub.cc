@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kPollInterval{200};
 constexpr std::chrono::seconds kKeepAliveInterval{15};      // proxies and browsers close silent connections
 constexpr std::size_t kMaxUnsentBytes = 16 * 1024 * 1024;  // of a client that does not read
 
-/// Whether the client has closed its end. Bytes that the client sends are not looked at.
+/// @returns whether the client has closed its end. Bytes that the client sends are not looked at.
 bool is_closed(int socket) {
   char byte = 0;
   const ssize_t got = ::recv(socket, &byte, 1, MSG_DONTWAIT);

@@ -41,7 +41,7 @@ class FairQueue {
 
   const std::size_t most_;
   std::size_t size_ = 0;
-  std::list<Line> lines_;  ///< whose turn it is first
+  std::list<Line> lines_;  ///< in the order of their turns
 };
 
 }  // namespace server

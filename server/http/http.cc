@@ -141,7 +141,8 @@ std::optional<Refusal> find_media_fault(const httplib::Request& request) {
   return Refusal{415, "the Content-Encoding is not supported; gzip and deflate are"};
 }
 
-/// Whether the body may be larger than a megabyte, which chunks and codings do not tell before it has come.
+/// @returns whether the body may be larger than a megabyte, which chunks and codings do not tell before it
+/// has come
 bool may_be_large(const httplib::Request& request) {
   const BodyForm form = body_form(request);
   return form.chunked || !form.coding.empty() || form.content_length > 1024 * 1024;
@@ -185,7 +186,7 @@ class HttpServer::Impl {
     guard.Patch(R"([\s\S]*)", with_body);
   }
 
-  /// What is done to answers that the library makes, and to all.
+  /// Handlers for answers that the library makes, and for all.
   void set_answer_handlers() {
     guard.set_default_headers(kSecurityHeaders);
     guard.set_error_handler(
@@ -233,7 +234,7 @@ class HttpServer::Impl {
                         "Preference-Applied, Retry-After, X-Request-Id");
   }
 
-  /// What a browser asks on behalf of such a page before it sends the request itself.
+  /// @returns whether a browser asks on behalf of such a page, before it sends the request itself
   bool is_preflight(const httplib::Request& request) const {
     return request.method == "OPTIONS" && request.has_header("Access-Control-Request-Method") &&
            origin_check_.is_allowed(request.get_header_value("Origin"));

@@ -21,7 +21,8 @@ bool is_host_character(unsigned char c) {
 
 bool is_path_character(unsigned char c) { return c > ' ' && c < 0x7f && c != '?' && c != '#' && c != '\\'; }
 
-/// Whether a certificate is of another host. Older versions of the library call that SSLServerVerification.
+/// @returns whether a certificate is of another host. Older versions of the library call that
+/// SSLServerVerification.
 template <typename Error>
 bool is_of_another_host(Error error) {
   if constexpr (requires { Error::SSLServerHostnameVerification; }) {

@@ -72,13 +72,11 @@ std::string head_of(const Response& response) {
 
 std::string text_of(const Response& response) { return head_of(response) + response.body; }
 
-/// Whether a head asks for a path that may be a probe, which its last segment says.
+/// @returns whether a head asks for a path that may be a probe, which its last segment says
 bool may_be_probe(std::string_view head) {
-  const std::string_view line = head.substr(0, head.find("\r\n"));
-  if (!line.starts_with("GET ") && !line.starts_with("HEAD ")) return false;
-  std::string_view target = line.substr(line.find(' ') + 1);
-  target = target.substr(0, target.find_first_of(" ?#"));
-  return target.ends_with("/healthz") || target.ends_with("/readyz");
+  if (!head.starts_with("GET ") && !head.starts_with("HEAD ")) return false;
+  const std::string_view path = raw_path_of(head);
+  return path.ends_with("/healthz") || path.ends_with("/readyz");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class HttpStream final : public httplib::Stream {
 
   /// Reads up to the empty line that ends the head; what follows it is kept for read().
   Head read_head();
-  /// Whether the request, as far as it has come, asks for an answer without its body.
+  /// @returns whether the request, as far as it has come, asks for an answer without its body
   [[nodiscard]] bool asks_for_head() const { return buffer_.starts_with("HEAD "); }
   [[nodiscard]] std::string_view head() const { return std::string_view(buffer_).substr(0, head_size_); }
 
@@ -43,7 +43,7 @@ class HttpStream final : public httplib::Stream {
   /// Sends it to a client that waits, once. Not counted as part of the answer.
   void send_continue();
 
-  /// Whether the client has been sent anything.
+  /// @returns whether the client has been sent anything
   [[nodiscard]] bool has_sent() const { return sent_bytes_ > 0; }
 
   /// Sends all of a text. False if the client is gone or too slow.

@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds kPause{2};  // in which other threads may fr
 std::atomic<void*> reserve = nullptr;
 std::atomic<bool> kept = false;
 
-/// Whether an allocation that has failed should be tried again.
+/// @returns whether an allocation that has failed should be tried again
 /// @param tries  so far
 bool may_find_memory(std::size_t size, int tries) {
   if (!kept || size > kLargestSmallBytes || tries > kMostTries) return false;

@@ -44,7 +44,7 @@ class BodyDecoder {
     return BodyState::kGood;
   }
 
-  /// Whether what was added is a whole body: the checksum stands at its end.
+  /// @returns whether what was added is a whole body: the checksum stands at its end
   [[nodiscard]] bool is_complete() const { return !packed_ || at_member_end_ || !begun_; }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace server {
 
-/// What the head says about a body.
+/// Form of a body, from the head.
 struct BodyForm {
   bool chunked = false;        ///< else content_length counts
   std::size_t content_length = 0;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <utility>
 
+#include "server/messages/identifiers.h"
 #include "server/messages/trimmed.h"
 
 namespace server {
@@ -29,10 +30,10 @@ bool has_control_character(std::string_view line) {
 /// Characters of a token, the form of header names (RFC 9110, section 5.6.2).
 bool is_token_character(unsigned char c) {
   constexpr std::string_view kSigns = "!#$%&'*+-.^_`|~";
-  return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;
+  return is_alphanumeric_or(c, kSigns);
 }
 
-/// What the header lines say about the length of the body and the name of the host.
+/// Length of the body and name of the host, from the header lines.
 struct Framing {
   bool may_lack_host = false;  ///< as HTTP/1.0 may
   int host_count = 0;
@@ -255,12 +256,10 @@ RequestHead read_head(std::string_view head) {
   return result;
 }
 
-/// Whether a name is written out: one with an escape stands for another.
+/// @returns whether a name is written out: one with an escape stands for another
 static bool is_plain_name(std::string_view host) {
   constexpr std::string_view kSigns = ".-_:[]";
-  return std::ranges::all_of(host, [&](unsigned char c) {
-    return (c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos;
-  });
+  return std::ranges::all_of(host, [&](unsigned char c) { return is_alphanumeric_or(c, kSigns); });
 }
 
 OriginCheck::OriginCheck(std::string bound_host, std::vector<std::string> allowed,
@@ -318,17 +317,15 @@ std::string normal_origin(std::string_view origin) {
   return normal;
 }
 
-/// Whether no segment of a path is empty, "." or "..", or has a sign that must be encoded.
+/// @returns whether no segment of a path is empty, "." or "..", or has a sign that must be encoded
 static bool has_valid_segments(std::string_view path) {
   constexpr std::string_view kSigns = "-._~!$&'()*+;=:@%";
   while (!path.empty()) {
     path.remove_prefix(1);
     const std::string_view segment = path.substr(0, path.find('/'));
     path.remove_prefix(segment.size());
-    const bool good = std::ranges::all_of(segment, [&](unsigned char c) {
-      return (c < 0x80 && std::isalnum(c) != 0) ||
-             kSigns.find(static_cast<char>(c)) != std::string_view::npos;
-    });
+    const bool good =
+        std::ranges::all_of(segment, [&](unsigned char c) { return is_alphanumeric_or(c, kSigns); });
     if (!good || segment.empty() || segment == "." || segment == "..") return false;
   }
   return true;

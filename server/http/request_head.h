@@ -11,7 +11,7 @@
 
 namespace server {
 
-/// Why a request is not served.
+/// Status and reason of a request that is not served.
 struct Refusal {
   int status;
   std::string detail;
@@ -56,7 +56,7 @@ class OriginCheck {
   explicit OriginCheck(std::string bound_host, std::vector<std::string> allowed = {},
                        std::vector<std::string> names = {});
 
-  /// What a request says about its origin; an empty text is a header that is missing.
+  /// Headers about the origin of a request; an empty text is a header that is missing.
   struct Headers {
     std::string method;
     std::string host;
@@ -68,12 +68,12 @@ class OriginCheck {
 
   [[nodiscard]] std::optional<Refusal> find_fault(const Headers& headers) const;
 
-  /// Whether that is one of the other sites whose pages may ask.
+  /// @returns whether an origin is one of the other sites whose pages may ask
   [[nodiscard]] bool is_allowed(const std::string& origin) const;
 
  private:
   [[nodiscard]] bool names_this_server(const std::string& host) const;
-  /// Whether an origin is that of this server's own page.
+  /// @returns whether an origin is that of this server's own page
   [[nodiscard]] bool is_own(const std::string& origin, const std::string& host) const;
 
   std::string bound_host_;

@@ -21,7 +21,7 @@ struct MediaRange {
   double weight = 1.0;
 };
 
-/// What stands before the first of these, which is taken from the text with it.
+/// Piece of a text before the first separator. Both are taken off the text.
 std::string_view take_until(char separator, std::string_view& text) {
   const std::size_t end = std::min(text.find(separator), text.size());
   const std::string_view taken = trimmed(text.substr(0, end));

@@ -15,7 +15,7 @@ namespace {
 
 enum class WeakTags { kCount, kDoNotCount };
 
-/// Whether a list of tags has this one, or is "*".
+/// @returns whether a list of tags has this one, or is "*"
 /// @param weak  to read something, tags marked as weak count: bodies are the same to the byte or differ
 bool has_tag(std::string_view list, std::string_view tag, WeakTags weak) {
   while (!list.empty()) {

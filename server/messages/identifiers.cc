@@ -10,10 +10,13 @@
 
 namespace server {
 
+bool is_alphanumeric_or(unsigned char c, std::string_view signs) {
+  return (c < 0x80 && std::isalnum(c) != 0) || signs.find(static_cast<char>(c)) != std::string_view::npos;
+}
+
 bool is_id(const std::string& text) {
-  return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_';
-  });
+  return !text.empty() && text.size() <= 64 &&
+         std::ranges::all_of(text, [](unsigned char c) { return is_alphanumeric_or(c, "-_"); });
 }
 
 std::string find_idempotency_key(const Request& request) {

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "server/messages/message.h"
 
 namespace server {
+
+/// @returns whether a byte is a letter or a digit of ASCII, or one of the signs
+[[nodiscard]] bool is_alphanumeric_or(unsigned char c, std::string_view signs);
 
 /// True for a text that may be an id: 1 to 64 letters, digits, '-' or '_'.
 [[nodiscard]] bool is_id(const std::string& text);

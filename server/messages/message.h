@@ -63,7 +63,7 @@ class EventSource {
 
   /// The text of what is new since the last call; empty if nothing is. Must not block.
   [[nodiscard]] virtual std::string next() = 0;
-  /// Whether nothing will follow.
+  /// @returns whether nothing will follow
   [[nodiscard]] virtual bool has_ended() const = 0;
 };
 
@@ -75,8 +75,8 @@ class BodyStream {
   BodyStream(const BodyStream&) = delete;
   BodyStream& operator=(const BodyStream&) = delete;
 
-  /// Appends the next piece. False after the last. What it throws ends the connection, so that the client
-  /// sees that the body is not whole.
+  /// Appends the next piece. False after the last. An exception ends the connection, so that the client sees
+  /// that the body is not whole.
   virtual bool append_next(std::string& to) = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kLongest{60};
 
-/// Whether an item is the preference `wait`; names of preferences ignore case (RFC 7240).
+/// @returns whether an item is the preference `wait`; names of preferences ignore case (RFC 7240)
 bool names_wait(std::string_view item) {
   return std::ranges::equal(item.substr(0, 4), std::string_view("wait"),
                             [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostFaults = 100;  // a request of 8 MiB may have a million of them
 
-/// What is said of the faults that an answer has no room for.
+/// Text about the faults that an answer has no room for; empty if there are none.
 std::string describe_left_out(std::size_t faults) {
   return faults > kMostFaults ? "; " + std::to_string(faults - kMostFaults) + " more are left out here" : "";
 }

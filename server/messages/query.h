@@ -25,7 +25,7 @@ class Query {
   /// @param allowed  the keys that the route knows; any other is a fault that names them
   Query(const Request& request, std::initializer_list<std::string_view> allowed);
 
-  /// What becomes of keys that are not among those allowed: they are faults, or the caller's to understand.
+  /// Treatment of keys that are not among those allowed: they are faults, or the caller's to understand.
   enum class Others { kRefused, kKept };
   Query(const Request& request, std::initializer_list<std::string_view> allowed, Others others);
 

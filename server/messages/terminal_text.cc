@@ -35,8 +35,8 @@ CodePoint first_code_point(std::string_view text) {
   return {value, bytes};
 }
 
-/// Whether a terminal obeys a character, or shows a text with it as another one: general categories Cc, Cf,
-/// Zl and Zp, save what is needed within words (U+200C, U+200D and the marks of some scripts).
+/// @returns whether a terminal obeys a character, or shows a text with it as another one: general categories
+/// Cc, Cf, Zl and Zp, save what is needed within words (U+200C, U+200D and the marks of some scripts)
 bool is_control(std::uint32_t value) {
   constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 13> kRanges{
       {{0x00, 0x1f}, {0x7f, 0x9f}, {0xad, 0xad}, {0x61c, 0x61c}, {0x180e, 0x180e}, {0x200b, 0x200b},

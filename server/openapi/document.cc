@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array kProblemsOfAll{400, 401, 403, 408, 413, 414, 431, 500, 501, 503};
 
-/// What a request can meet before or while it is answered, whatever the route.
+/// Problems of a route's requests: those of any route, and its own.
 std::set<int> problems_of(const Route& route) {
   std::set<int> problems(kProblemsOfAll.begin(), kProblemsOfAll.end());
   problems.insert(route.problems.begin(), route.problems.end());
@@ -73,7 +73,7 @@ Json make_problem_answer(int status) {
   return answer;
 }
 
-/// Whether browsers save an answer of this form instead of showing it.
+/// @returns whether browsers save an answer of this form instead of showing it
 bool is_saved(const AnswerForm& form) {
   constexpr std::array<std::string_view, 5> kSaved{"text/csv", "application/x-npz", "application/x-hdf5",
                                                    "application/x-matlab-data", "application/vnd.sqlite3"};

@@ -71,7 +71,7 @@ Json make_values() {
   return by_paths(std::move(properties), {{"type", "number"}});
 }
 
-/// What a key of a design may be.
+/// Schema of a key of a design.
 Json make_design_key(std::string_view key) {
   if (key == "count") return integer_in(jobs::kCountRange);
   if (key == "trajectories") return integer_in(jobs::kBlocksRange);
@@ -207,7 +207,7 @@ Json make_sweep_request() {
   return request;
 }
 
-/// Where a search looks for a limit.
+/// Schema of the path along which a search looks for a limit.
 Json make_search_path() {
   Json first = integer_in(jobs::kFirstRange);
   first["default"] = jobs::kDefaultFirst;

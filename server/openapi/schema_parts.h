@@ -42,7 +42,7 @@ inline const Json kCount{{"type", "integer"}, {"minimum", 0}};
 /// The property of the schema of a sweep's request.
 [[nodiscard]] Json as_in_sweep(std::string_view property);
 
-/// What a schema describes, or null.
+/// Schema that allows null beside the values of another one.
 [[nodiscard]] Json or_null(Json schema);
 
 /// The schema of the value of a parameter, by its path: "clearance_mm", "links.1,3.mass_kg".

@@ -43,7 +43,7 @@ Json make_request() {
       {{"name", as_in("SweepRequest", "name")},
        {"parameters", ref("Parameters")},
        {"wear_coefficient_m2_n", std::move(coefficient)},
-       {"sectors", count_in(jobs::kWearSectorsRange, query.sectors, "around the circumference")},
+       {"sectors", count_in(jobs::kBoreSectorsRange, query.sectors, "around the circumference")},
        {"hours", above_zero("how long the linkage runs; this, worn_clearance_mm or both")},
        {"worn_clearance_mm", above_zero("the clearance at the deepest place that ends the study")},
        {"max_depth_step_um", std::move(step)},

@@ -78,7 +78,7 @@ class CurveLooks {
     }
   }
 
-  /// Which of the combinations of the rest a group has.
+  /// Number of a group's combination among those of the rest.
   [[nodiscard]] std::size_t kind_of(const jobs::RowGroup& group) const { return rest_.at(rest_of(group)); }
 
   [[nodiscard]] charts::Series look_of(const jobs::RowGroup& group) const {

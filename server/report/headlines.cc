@@ -67,11 +67,11 @@ std::string percent(double part) {
   return text + " %";
 }
 
-/// How much replicates of the same setting differ.
+/// Differences between replicates of the same setting.
 struct ReplicateScatter {
   std::size_t settings = 0;  ///< that were run more than once
   double widest = -1.0;      ///< largest difference of two values of a setting, over their mean
-  std::string setting{};     ///< where that is
+  std::string setting{};     ///< setting of that difference
 };
 
 /// Difference of the largest and the least value, over the mean.

@@ -55,7 +55,7 @@ std::string style_hash() {
   return {reinterpret_cast<const char*>(text.data()), static_cast<std::size_t>(length)};
 }
 
-/// What stands for a sign of HTML in a text; empty for any other character.
+/// Text that stands for a sign of HTML; empty for any other character.
 std::string_view entity_of(char c) {
   switch (c) {
     case '<': return "&lt;";
@@ -114,7 +114,7 @@ std::string make_table_head(const std::vector<std::string>& headings,
 
 std::string make_table(const std::vector<std::string>& headings,
                        const std::vector<std::vector<nlohmann::json>>& rows) {
-  // What may be wider than the window is reached with the keyboard, too.
+  // A table that may be wider than the window is reached with the keyboard, too.
   std::string html = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Table\"><table>";
   html += make_table_head(headings, rows) + "<tbody>\n";
   for (const auto& row : rows) {

@@ -64,7 +64,7 @@ std::string make_titled_table(const jobs::ResultTable& table, const std::vector<
                                                            std::to_string(table.rows.size()) + " rows.");
 }
 
-/// Whether a table has more in a column than that value.
+/// @returns whether a table has more in a column than that value
 bool says_more_than(const jobs::ResultTable& table, const std::string& name, const json& value) {
   const std::size_t column = jobs::find_column(table, name, "");
   return std::ranges::any_of(table.rows, [&](const auto& row) { return row[column] != value; });

@@ -208,7 +208,7 @@ jobs::WearQuery read_wear_query(Query& query) {
   jobs::WearQuery wanted;
   wanted.wear_coefficient =
       query.number_in("wear_coefficient_m2_n", jobs::kWearCoefficientRange).value_or(wanted.wear_coefficient);
-  wanted.sectors = query.count_in("sectors", jobs::kSectorsRange).value_or(wanted.sectors);
+  wanted.sectors = query.count_in("sectors", jobs::kMapSectorsRange).value_or(wanted.sectors);
   wanted.worn_clearance = query.number("worn_clearance_mm");
   return wanted;
 }

@@ -35,7 +35,7 @@ enum class MeasurementForm { kJson, kCsv, kNpz };
 
 HttpError no_such_measurement(const std::string& id) { return {404, "there is no measurement " + id}; }
 
-/// Form of a body from its media type. What curl calls a body without being told is taken for JSON.
+/// Form of a body from its media type. The media type that curl gives a body by default is taken for JSON.
 /// @throws HttpError 415
 MeasurementForm form_of(const std::string& content_type) {
   constexpr std::array<std::pair<std::string_view, MeasurementForm>, 6> kForms{

@@ -53,7 +53,7 @@ Response get_readiness(const RequestContext& context) {
     context.service.check_room();
   } catch (const jobs::StorageError& error) {
     if (!error.full) throw;
-    // What there is can be read and deleted
+    // The contents of a full store can be read and deleted.
     return json_response(200, nlohmann::json{{"status", "full"}, {"reason", error.what()}}.dump());
   }
   return json_response(200, R"({"status":"ready"})");

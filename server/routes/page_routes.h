@@ -12,7 +12,7 @@ namespace server {
 /// @throws HttpError 404 if there is none of that path
 [[nodiscard]] Response make_file_answer(const Request& request, std::string_view path);
 
-/// Whether there is a file of web/ of that path.
+/// @returns whether there is a file of web/ of that path
 [[nodiscard]] bool is_page_file(std::string_view path);
 
 Response get_page_file(
@@ -20,6 +20,6 @@ Response get_page_file(
 Response get_health(const RequestContext& context);     ///< 200 as long as the program answers at all
 Response get_readiness(const RequestContext& context);  ///< 200 if requests can be served: the store reads,
                                                         ///< and the service is not ending
-Response get_metrics(const RequestContext& context);    ///< what Metrics has counted, for Prometheus
+Response get_metrics(const RequestContext& context);    ///< counts of Metrics, for Prometheus
 
 }  // namespace server

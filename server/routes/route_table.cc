@@ -189,70 +189,116 @@ std::vector<Route> make_fit_routes() {
   return routes;
 }
 
+/// An analysis whose answer is a table, by rows.
+Route with_rows(Route route, const char* schema) {
+  route.query.emplace_back("row_format");
+  route.headers = {"if_none_match"};
+  route.answers = {{kJson, schema}, {kCsv, "Text"}, {kNdjson, "Text"}};
+  route.bodiless = {304};
+  route.problems = {404, 409, 422};
+  return route;
+}
+
+/// The same by columns.
+Route with_columns(Route route, const char* schema) {
+  route.query.emplace_back("column_format");
+  route.headers = {"if_none_match"};
+  route.answers = {{kJson, schema}, {kCsv, "Text"}, {kNpz, "Binary"}};
+  route.bodiless = {304};
+  route.problems = {404, 409, 422};
+  return route;
+}
+
 std::vector<Route> make_analysis_routes() {
   return {
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/sensitivity", .handler = get_sensitivity,
-       .operation_id = "getSensitivity", .tag = "sweeps",
-       .summary = "Sensitivity of a metric to each parameter of a morris or saltelli design",
-       .query = {"metric", "row_format"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "SensitivityRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/surrogate", .handler = get_surrogate,
-       .operation_id = "getSurrogate", .tag = "sweeps",
+      with_rows({.method = "GET",
+                 .pattern = "/v1/sweeps/{id}/sensitivity",
+                 .handler = get_sensitivity,
+                 .operation_id = "getSensitivity",
+                 .tag = "sweeps",
+                 .summary = "Sensitivity of a metric to each parameter of a morris or saltelli design",
+                 .query = {"metric"}},
+                "SensitivityRows"),
+      {.method = "GET",
+       .pattern = "/v1/sweeps/{id}/surrogate",
+       .handler = get_surrogate,
+       .operation_id = "getSurrogate",
+       .tag = "sweeps",
        .summary = "Polynomial chaos surrogate of a metric, with its cross-validation error and the points "
                   "that it is fitted to",
-       .query = {"metric", "surrogate_x", "surrogate_y"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "Surrogate"}}, .bodiless = {304}, .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/flexibility", .handler = get_flexibility,
-       .operation_id = "getFlexibility", .tag = "sweeps",
-       .summary = "Rigid and flexible jobs compared pair by pair", .query = {"metric", "row_format"},
+       .query = {"metric", "surrogate_x", "surrogate_y"},
        .headers = {"if_none_match"},
-       .answers = {{kJson, "FlexibilityRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
+       .answers = {{kJson, "Surrogate"}},
+       .bodiless = {304},
        .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/paper", .handler = get_paper, .operation_id = "getPaper",
+      with_rows({.method = "GET",
+                 .pattern = "/v1/sweeps/{id}/flexibility",
+                 .handler = get_flexibility,
+                 .operation_id = "getFlexibility",
+                 .tag = "sweeps",
+                 .summary = "Rigid and flexible jobs compared pair by pair",
+                 .query = {"metric"}},
+                "FlexibilityRows"),
+      with_rows({.method = "GET",
+                 .pattern = "/v1/sweeps/{id}/paper",
+                 .handler = get_paper,
+                 .operation_id = "getPaper",
+                 .tag = "sweeps",
+                 .summary = "The paper's seven statements compared with a sweep over clearance_mm, "
+                            "crank_velocity_rad_s and coupler"},
+                "PaperRows"),
+      with_rows({.method = "GET",
+                 .pattern = "/v1/sweeps/{id}/bifurcation",
+                 .handler = get_bifurcation,
+                 .operation_id = "getBifurcation",
+                 .tag = "sweeps",
+                 .summary = "Bifurcation diagram: a channel of every job once per revolution",
+                 .query = {"channel", "angle", "phase_rad", "section_from"}},
+                "BifurcationRows"),
+      with_rows({.method = "GET",
+                 .pattern = "/v1/sweeps/{id}/lyapunov",
+                 .handler = get_lyapunov,
+                 .operation_id = "getLyapunov",
+                 .tag = "sweeps",
+                 .summary = "The largest Lyapunov exponent of each set of replicates"},
+                "LyapunovRows"),
+      {.method = "GET",
+       .pattern = "/v1/sweeps/{id}/report",
+       .handler = get_report,
+       .operation_id = "getReport",
        .tag = "sweeps",
-       .summary = "The paper's seven statements compared with a sweep over clearance_mm, "
-                  "crank_velocity_rad_s and coupler",
-       .query = {"row_format"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "PaperRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/bifurcation", .handler = get_bifurcation,
-       .operation_id = "getBifurcation", .tag = "sweeps",
-       .summary = "Bifurcation diagram: a channel of every job once per revolution",
-       .query = {"channel", "angle", "phase_rad", "section_from", "row_format"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "BifurcationRows"}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/lyapunov", .handler = get_lyapunov,
-       .operation_id = "getLyapunov", .tag = "sweeps",
-       .summary = "The largest Lyapunov exponent of each set of replicates", .query = {"row_format"},
-       .headers = {"if_none_match"}, .answers = {{kJson, "LyapunovRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
-       .bodiless = {304}, .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/sweeps/{id}/report", .handler = get_report,
-       .operation_id = "getReport", .tag = "sweeps",
        .summary = "Report of the sweep, one self-contained page: largest values, figures, tables, "
                   "provenance, and the command that repeats it",
-       .query = {"metric", "report_x", "report_rows"}, .headers = {"if_none_match"},
-       .answers = {{kHtml, "Text"}}, .bodiless = {304}, .problems = {404, 422}},
-      {.method = "GET", .pattern = "/v1/jobs/{id}/spectrum", .handler = get_spectrum,
-       .operation_id = "getSpectrum", .tag = "jobs",
-       .summary = "Spectrum of a channel: amplitude and power density over frequency",
-       .query = {"channel", "window", "from", "to", "column_format"}, .headers = {"if_none_match"},
-       .answers = {{kJson, "Columns"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304},
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/jobs/{id}/poincare", .handler = get_poincare,
-       .operation_id = "getPoincare", .tag = "jobs",
-       .summary = "Poincare section of a job: channels once per revolution",
-       .query = {"channels", "angle", "phase_rad", "from", "to", "column_format"},
+       .query = {"metric", "report_x", "report_rows"},
        .headers = {"if_none_match"},
-       .answers = {{kJson, "Columns"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304},
-       .problems = {404, 409, 422}},
-      {.method = "GET", .pattern = "/v1/jobs/{id}/wear", .handler = get_wear, .operation_id = "getWear",
-       .tag = "jobs",
-       .summary = "Wear map by Archard's law: worn depth around the bearing and along its length",
-       .query = {"wear_joint", "wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to",
-                 "row_format"},
-       .headers = {"if_none_match"}, .answers = {{kJson, "WearRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
-       .bodiless = {304}, .problems = {404, 409, 422}},
+       .answers = {{kHtml, "Text"}},
+       .bodiless = {304},
+       .problems = {404, 422}},
+      with_columns({.method = "GET",
+                    .pattern = "/v1/jobs/{id}/spectrum",
+                    .handler = get_spectrum,
+                    .operation_id = "getSpectrum",
+                    .tag = "jobs",
+                    .summary = "Spectrum of a channel: amplitude and power density over frequency",
+                    .query = {"channel", "window", "from", "to"}},
+                   "Columns"),
+      with_columns({.method = "GET",
+                    .pattern = "/v1/jobs/{id}/poincare",
+                    .handler = get_poincare,
+                    .operation_id = "getPoincare",
+                    .tag = "jobs",
+                    .summary = "Poincare section of a job: channels once per revolution",
+                    .query = {"channels", "angle", "phase_rad", "from", "to"}},
+                   "Columns"),
+      with_rows(
+          {.method = "GET",
+           .pattern = "/v1/jobs/{id}/wear",
+           .handler = get_wear,
+           .operation_id = "getWear",
+           .tag = "jobs",
+           .summary = "Wear map by Archard's law: worn depth around the bearing and along its length",
+           .query = {"wear_joint", "wear_coefficient_m2_n", "sectors", "worn_clearance_mm", "from", "to"}},
+          "WearRows"),
   };
 }
 

@@ -4,7 +4,6 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <exception>
 #include <mutex>
@@ -46,8 +45,7 @@ std::string percent_encoded(std::string_view part) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;
   for (const unsigned char c : part) {
-    if ((c < 0x80 && std::isalnum(c) != 0) || kSigns.find(static_cast<char>(c)) != std::string_view::npos)
-      text += static_cast<char>(c);
+    if (is_alphanumeric_or(c, kSigns)) text += static_cast<char>(c);
     else (text += '%') += {kDigits[c >> 4U], kDigits[c & 15U]};
   }
   return text;
@@ -64,7 +62,7 @@ bool changes_something(std::string_view method) {
   return method == "POST" || method == "PATCH" || method == "DELETE";
 }
 
-/// Whether a request may take much memory or time: tables and analyses of a sweep, and large bodies.
+/// @returns whether a request may take much memory or time: tables and analyses of a sweep, and large bodies
 bool is_heavy(const Route& route, const Request& request) {
   constexpr std::size_t kLargeBody = 64 * 1024;
   if (changes_something(route.method)) return request.body.size() > kLargeBody;
@@ -144,7 +142,7 @@ Response Routes::answer(const Request& request) const {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   try {
     metrics_->add_request(request.method, pattern, response.status, took.count());
-  } catch (const std::bad_alloc&) {  // what has been done is done, and is answered
+  } catch (const std::bad_alloc&) {  // the request has taken effect, and is answered
     log_error("request {} is missing in the metrics: no memory", request.id);
   }
   return response;

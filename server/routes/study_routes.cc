@@ -118,7 +118,7 @@ Response StudyRoutes<kKind>::retry(const RequestContext& context) {
                          context.service.retry_study(kKind, context.id));
 }
 
-template struct StudyRoutes<StudyKind::kLimit>;
+template struct StudyRoutes<StudyKind::kSearch>;
 template struct StudyRoutes<StudyKind::kWear>;
 template struct StudyRoutes<StudyKind::kOptimisation>;
 template struct StudyRoutes<StudyKind::kFit>;

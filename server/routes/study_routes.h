@@ -20,7 +20,7 @@ struct StudyRoutes {
   static Response retry(const RequestContext& context);
 };
 
-using SearchRoutes = StudyRoutes<jobs::StudyKind::kLimit>;
+using SearchRoutes = StudyRoutes<jobs::StudyKind::kSearch>;
 using WearRoutes = StudyRoutes<jobs::StudyKind::kWear>;
 using OptimisationRoutes = StudyRoutes<jobs::StudyKind::kOptimisation>;
 using FitRoutes = StudyRoutes<jobs::StudyKind::kFit>;

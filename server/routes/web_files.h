@@ -8,7 +8,7 @@ namespace server {
 
 /// One file of web/ or of an npm package, as it was when the program was built.
 struct WebFile {
-  /// Whether the path names what each build has there, or, by its hash, this very content.
+  /// Meaning of the path: the file that each build has there, or, by its hash, this very content.
   enum class Path { kNamed, kHashed };
 
   std::string_view path;  ///< "/index.html", "/lib/three.0123456789abcdef.js"

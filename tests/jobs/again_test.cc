@@ -121,7 +121,8 @@ TEST(Again, SaysOnceThatTheStoreIsOfAnotherEngineAndComputesAnew) {
   EXPECT_EQ(said.size(), 1U) << said.back();
 }
 
-// Who has been told of the last end, and asks from there on after a restart, is told of the next one.
+// The next end has a new number, also after retries and a restart: a client that knows the last end and asks
+// for changes from there on is told of the next one.
 TEST(Retry, ForgetsNoNumberOfAnEnd) {
   const TemporaryStore temporary;
   std::string id;
@@ -143,7 +144,7 @@ TEST(Retry, ForgetsNoNumberOfAnEnd) {
   EXPECT_EQ(store.reader.find_changes(id, last)->ended.size(), 1U);
 }
 
-// What a crash leaves is either.
+// A crash leaves the state either before the retry or after it.
 TEST(Retry, OpensTheStudyOfASweepInOneStep) {
   const TemporaryStore temporary;
   jobs::Store store(temporary.file());

@@ -33,7 +33,7 @@ ordered_json request_for(double crank_velocity) {
 
 json wait_for_end(const jobs::Service& service, const std::string& id) {
   for (int tries = 0; tries < 4000; ++tries) {
-    json search = service.find_study(StudyKind::kLimit, id).value();
+    json search = service.find_study(StudyKind::kSearch, id).value();
     if (search.at("state") != "running") return search;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -44,12 +44,12 @@ json list(const jobs::Service& service, const std::string& state, const std::str
   jobs::PageQuery query;
   query.state = state;
   query.fields = fields;
-  return service.list_studies(StudyKind::kLimit, query).at("items");
+  return service.list_studies(StudyKind::kSearch, query).at("items");
 }
 
 std::set<std::string> search_faults_of(jobs::Service& service, const ordered_json& request) {
   try {
-    (void)service.submit_study(StudyKind::kLimit, request);
+    (void)service.submit_study(StudyKind::kSearch, request);
   } catch (const jobs::InvalidRequest& invalid) {
     std::set<std::string> pointers;
     for (const jobs::Fault& fault : invalid.faults()) pointers.insert(fault.pointer);
@@ -62,7 +62,7 @@ TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 2));
-  const json begun = service.submit_study(StudyKind::kLimit, request_for(5.3));
+  const json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
   EXPECT_EQ(begun.at("most_evaluations"), 13);
   const json ended = wait_for_end(service, begun.at("id"));
   EXPECT_EQ(ended.at("state"), "succeeded");
@@ -80,7 +80,7 @@ TEST(Search, FindsTheLimitWithTheExpectedNumberOfRuns) {
   const auto results = service.find_results(ended.at("sweep_id")).value();
   EXPECT_EQ(results.rows.size(), 13U);
   const json again =
-      wait_for_end(service, service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id"));
+      wait_for_end(service, service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id"));
   EXPECT_EQ(again.at("limits").at(0).at("limit"), limit.at("limit"));
   EXPECT_EQ(engine.begun_speeds().size(), 13U) << "nothing is computed twice";
 }
@@ -92,7 +92,7 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   ordered_json request = request_for(5.3);
   request["sweep"] = {{"coupler", {"rigid", "flexible"}}, {"restitution", {0.8, 0.9}}};
   request["replicates"] = {{"count", 3}};
-  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kSearch, request).at("id"));
   ASSERT_EQ(ended.at("limits").size(), 4U);
   for (const json& limit : ended.at("limits")) {
     EXPECT_EQ(limit.at("verdict"), "found");
@@ -106,7 +106,7 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   EXPECT_EQ(ended.at("limits").at(1).at("coupler"), "rigid");
   EXPECT_EQ(ended.at("limits").at(1).at("restitution"), 0.9);
   EXPECT_EQ(ended.at("counts").at("total"), 4 * 13 * 3);
-  const auto table = service.find_study_table(StudyKind::kLimit, ended.at("id")).value();
+  const auto table = service.find_study_table(StudyKind::kSearch, ended.at("id")).value();
   EXPECT_EQ(table.columns.at(0), "coupler");
   EXPECT_EQ(table.rows.size(), 4U);
   EXPECT_TRUE(table.ended);
@@ -119,7 +119,7 @@ TEST(Search, GoesOnAfterARestart) {
   {
     jobs::Service service(options_of(store, engine, 1));
     engine.hold();
-    id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
+    id = service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id");
     engine.await_running(1);
   }
   engine.release();
@@ -132,20 +132,20 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const std::string id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
+  const std::string id = service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id");
   engine.await_running(1);
-  EXPECT_THROW(service.delete_study(StudyKind::kLimit, id), jobs::WrongState);
-  EXPECT_EQ(service.cancel_study(StudyKind::kLimit, id).value().at("state"), "cancelled");
-  EXPECT_EQ(service.cancel_study(StudyKind::kLimit, id).value().at("counts").at("cancelled"), 5);
+  EXPECT_THROW(service.delete_study(StudyKind::kSearch, id), jobs::WrongState);
+  EXPECT_EQ(service.cancel_study(StudyKind::kSearch, id).value().at("state"), "cancelled");
+  EXPECT_EQ(service.cancel_study(StudyKind::kSearch, id).value().at("counts").at("cancelled"), 5);
   engine.release();
-  EXPECT_EQ(service.retry_study(StudyKind::kLimit, id).value().at("state"), "running");
+  EXPECT_EQ(service.retry_study(StudyKind::kSearch, id).value().at("state"), "running");
   EXPECT_EQ(wait_for_end(service, id).at("state"), "succeeded");
-  EXPECT_THROW(service.cancel_study(StudyKind::kLimit, id), jobs::WrongState);
-  const std::string sweep = service.find_study(StudyKind::kLimit, id).value().at("sweep_id");
-  EXPECT_TRUE(service.delete_study(StudyKind::kLimit, id));
-  EXPECT_FALSE(service.find_study(StudyKind::kLimit, id).has_value());
+  EXPECT_THROW(service.cancel_study(StudyKind::kSearch, id), jobs::WrongState);
+  const std::string sweep = service.find_study(StudyKind::kSearch, id).value().at("sweep_id");
+  EXPECT_TRUE(service.delete_study(StudyKind::kSearch, id));
+  EXPECT_FALSE(service.find_study(StudyKind::kSearch, id).has_value());
   EXPECT_FALSE(service.find_sweep(sweep).has_value());
-  EXPECT_FALSE(service.delete_study(StudyKind::kLimit, id));
+  EXPECT_FALSE(service.delete_study(StudyKind::kSearch, id));
 }
 
 // Its evaluations are its result: without them nothing is left of it.
@@ -153,7 +153,7 @@ TEST(Search, KeepsItsSweep) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = service.submit_study(jobs::StudyKind::kLimit, request_for(5.3)).at("id");
+  const std::string id = service.submit_study(jobs::StudyKind::kSearch, request_for(5.3)).at("id");
   const std::string sweep = wait_for_end(service, id).at("sweep_id");
   try {
     (void)service.delete_sweep(sweep);
@@ -161,7 +161,7 @@ TEST(Search, KeepsItsSweep) {
   } catch (const jobs::WrongState& refused) {
     EXPECT_NE(std::string(refused.what()).find(id), std::string::npos) << refused.what();
   }
-  EXPECT_TRUE(service.find_study(jobs::StudyKind::kLimit, id).has_value());
+  EXPECT_TRUE(service.find_study(jobs::StudyKind::kSearch, id).has_value());
   EXPECT_EQ(service.find_sweep(sweep).value().at("study_id"), id);
   EXPECT_EQ(service.find_sweep(sweep).value().at("links").at("study"), "/v1/searches/" + id);
   const std::string other = service.submit_sweep({{"parameters", {{"clearance_mm", 0}}}}).at("id");
@@ -178,7 +178,7 @@ TEST(Search, TakesWhatIsAddedToItsSweepByHand) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const json begun = service.submit_study(StudyKind::kLimit, request_for(5.3));
+  const json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
   engine.await_running(1);
   EXPECT_EQ(service
                 .extend_sweep(begun.at("sweep_id"),
@@ -199,15 +199,15 @@ TEST(Search, IsStoredOnceUnderOneKey) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const json first = service.submit_study(StudyKind::kLimit, request_for(5.3), "key-1");
+  const json first = service.submit_study(StudyKind::kSearch, request_for(5.3), "key-1");
   EXPECT_EQ(first.at("state"), "running");
   (void)wait_for_end(service, first.at("id"));
-  EXPECT_EQ(service.submit_study(StudyKind::kLimit, request_for(5.3), "key-1"), first);
-  EXPECT_THROW((void)service.submit_study(StudyKind::kLimit, request_for(5.4), "key-1"),
+  EXPECT_EQ(service.submit_study(StudyKind::kSearch, request_for(5.3), "key-1"), first);
+  EXPECT_THROW((void)service.submit_study(StudyKind::kSearch, request_for(5.4), "key-1"),
                jobs::InvalidRequest);
   EXPECT_EQ(list(service, "").size(), 1U);
-  // What has been computed is known when the next one begins, but its answer is kept as it begins.
-  const json second = service.submit_study(StudyKind::kLimit, request_for(5.3), "key-2");
+  // Computed jobs are known when the next search begins. The answer is kept as it is at the beginning.
+  const json second = service.submit_study(StudyKind::kSearch, request_for(5.3), "key-2");
   EXPECT_EQ(second.at("state"), "running");
   EXPECT_EQ(second.at("counts").at("succeeded"), 5);
   EXPECT_EQ(second.at("limits").at(0).at("points").at(0).at("pending"), 1);
@@ -218,13 +218,13 @@ TEST(Search, IsWaitedFor) {
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
   engine.hold();
-  const std::string id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
-  EXPECT_FALSE(service.wait_for_study(StudyKind::kLimit, id, std::chrono::milliseconds(20)));
-  EXPECT_FALSE(service.wait_for_study(StudyKind::kLimit, "sch_none", std::chrono::hours(1)));
+  const std::string id = service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id");
+  EXPECT_FALSE(service.wait_for_study(StudyKind::kSearch, id, std::chrono::milliseconds(20)));
+  EXPECT_FALSE(service.wait_for_study(StudyKind::kSearch, "sch_none", std::chrono::hours(1)));
   EXPECT_FALSE(service.wait_for_study(StudyKind::kWear, id, std::chrono::hours(1)));
   engine.release();
-  EXPECT_TRUE(service.wait_for_study(StudyKind::kLimit, id, std::chrono::seconds(300)));
-  EXPECT_EQ(service.find_study(StudyKind::kLimit, id).value().at("state"), "succeeded");
+  EXPECT_TRUE(service.wait_for_study(StudyKind::kSearch, id, std::chrono::seconds(300)));
+  EXPECT_EQ(service.find_study(StudyKind::kSearch, id).value().at("state"), "succeeded");
 }
 
 // The fake engine fails at a restitution of 0.5.
@@ -234,7 +234,7 @@ TEST(Search, SaysWhichCombinationIsLostToAFailedJob) {
   jobs::Service service(options_of(store, engine, 2));
   ordered_json request = request_for(5.3);
   request["sweep"] = {{"restitution", {0.5, 0.9}}};
-  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kSearch, request).at("id"));
   EXPECT_EQ(ended.at("state"), "failed");
   const json& lost = ended.at("limits").at(0);
   EXPECT_EQ(lost.at("verdict"), "lost");
@@ -251,12 +251,12 @@ TEST(Search, SaysThatItsMetricDoesNotApply) {
   jobs::Service service(options_of(store, engine, 2));
   ordered_json request = request_for(5.3);
   request["metric"] = engine::metric_table()[1].key;
-  const std::string id = service.submit_study(StudyKind::kLimit, request).at("id");
+  const std::string id = service.submit_study(StudyKind::kSearch, request).at("id");
   const json ended = wait_for_end(service, id);
   EXPECT_EQ(ended.at("counts").at("succeeded"), 5);
   EXPECT_EQ(ended.at("limits").at(0).at("verdict"), "lost");
   EXPECT_EQ(ended.at("limits").at(0).at("lost_reason"), "no_value");
-  const jobs::ResultTable table = service.find_study_table(StudyKind::kLimit, id).value();
+  const jobs::ResultTable table = service.find_study_table(StudyKind::kSearch, id).value();
   ASSERT_EQ(table.columns.back(), "lost_reason");
   EXPECT_EQ(table.rows.at(0).back(), "no_value");
 }
@@ -336,7 +336,7 @@ TEST(Search, LooksForTheLimitOfANumberOfADescription) {
   jobs::Service service(options);
   ordered_json request = request_over_a_pendulum();
   request["sweep"] = {{"gravity_m_s2", {9.81, 19.62}}};
-  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kSearch, request).at("id"));
   ASSERT_EQ(ended.at("state"), "succeeded") << ended;
   ASSERT_EQ(ended.at("limits").size(), 2U);
   EXPECT_NEAR(ended.at("limits").at(0).at("limit").get<double>(), 5.3, 0.01);
@@ -360,7 +360,7 @@ TEST(Search, LooksAtWholeNumbersOfADescription) {
       {"mass_kg", 1}, {"beam", {{"length_m", 1}, {"diameter_mm", 9}}}};
   request["over"] = {{"linkage.bodies.rod.beam.elements", {{"from", 2}, {"to", 20}, {"tolerance", 0.5}}}};
   request["bound"] = 6.5;
-  const json ended = wait_for_end(service, service.submit_study(StudyKind::kLimit, request).at("id"));
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kSearch, request).at("id"));
   ASSERT_EQ(ended.at("state"), "succeeded") << ended;
   EXPECT_EQ(ended.at("limits").at(0).at("limit"), 6) << ended;
   EXPECT_EQ(ended.at("limits").at(0).at("limit_beyond"), 7) << ended;
@@ -393,7 +393,7 @@ TEST(Search, IsListedByItsState) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  const std::string id = service.submit_study(StudyKind::kLimit, request_for(5.3)).at("id");
+  const std::string id = service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id");
   (void)wait_for_end(service, id);
   EXPECT_EQ(list(service, "succeeded").at(0).at("id"), id);
   EXPECT_TRUE(list(service, "running").empty());

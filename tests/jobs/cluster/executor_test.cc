@@ -58,7 +58,7 @@ class ClusterTest : public testing::Test {
     return found;
   }
 
-  /// What squeue says of all tasks of the first generations.
+  /// Sets the state that squeue prints for all tasks of the first generations.
   void report_all(const std::filesystem::path& batch, int generations, const std::string& word,
                   const std::string& reason = "None") {
     std::string lines;

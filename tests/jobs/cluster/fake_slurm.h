@@ -27,7 +27,7 @@ class FakeSlurm {
 
   /// @param script  of shell: what the command does from now on
   void answer(const std::string& command, const std::string& script) { write(command, script + "\n"); }
-  /// What squeue prints from now on; until the first time it fails, so that nothing is concluded.
+  /// Sets the output of squeue from now on. Before the first call squeue fails, so that nothing is concluded.
   void report(const std::string& lines) { replace("reports", lines); }
 
   [[nodiscard]] std::string calls() const {

@@ -40,7 +40,7 @@ TaskReport ended(Phase phase, const std::string& word) {
   return {.phase = phase, .word = word, .array_job = "7", .cpus = 1, .node = "n1", .reason = "None"};
 }
 
-/// What is decided about a task that stays as it is beyond the time for late files.
+/// Decision about a task that stays as it is beyond the time for late files.
 Decision after_grace(const TaskState& task, const Reports& reports) {
   Reconciler reconciler(kGrace);
   const TaskStates tasks{{kFirst, task}};

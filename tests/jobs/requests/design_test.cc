@@ -48,7 +48,7 @@ TEST(OneAtATime, HasTheCentreOnceAndThenEachParameterAlone) {
                      R"([0.2,5.0,"rigid"])", R"([0.2,12.0,"rigid"])", R"([0.2,10.0,"flexible"])"}));
 }
 
-// What follows from the parameters of all points is the centre's, too: a mass goes with its length.
+// The centre takes the values that follow from the parameters of all points: a mass goes with its length.
 TEST(OneAtATime, TakesItsCentreFromTheDefaultsOfTheRequest) {
   const auto rows = rows_of(
       R"({"parameters": {"crank_length_m": 0.1}, "design": {"type": "one_at_a_time",
@@ -73,7 +73,7 @@ TEST(SampledDesign, StretchesTheUnitCubeOverTheRanges) {
   }
 }
 
-/// How often each value stands in a column.
+/// Count of each value in a column.
 std::map<std::string, int> counts_of(const std::vector<json>& rows, std::size_t column) {
   std::map<std::string, int> counts;
   for (const json& row : rows) ++counts[row[column].dump()];

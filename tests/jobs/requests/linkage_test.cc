@@ -51,7 +51,7 @@ TEST_P(LinkageExample, Runs) {
   const jobs::Outcome outcome = jobs::run_job(parameters, [](double) { return false; });
   ASSERT_EQ(outcome.job.at("state"), "succeeded") << outcome.job.at("error");
   const json& metrics = outcome.job.at("metrics");
-  // What the account misses, against the energy that there is.
+  // The imbalance of the energy account is small against the largest kinetic energy.
   double energy = 0.0;
   const std::vector<double> kinetic = column(outcome.trajectory, "kinetic_energy_j");
   for (const double value : kinetic) energy = std::max(energy, value);

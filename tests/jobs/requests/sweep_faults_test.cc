@@ -188,7 +188,8 @@ TEST(SweepFaults, AreNamedBesideASizeThatIsTooLarge) {
   EXPECT_EQ(pointers_of(faults), (std::vector<std::string>{"/name", "/replicates/count"}));
 }
 
-// What may be many has no long names in it, which every place below would repeat.
+// Unknown names give no paths and one fault each. Faults of the places below, which may be many, would repeat
+// a long name.
 TEST(SweepFaults, ComeFromKnownPlacesOnly) {
   EXPECT_EQ(jobs::paths_of(request_of(R"({"x": 1, "clearance_mm": 1, "wear_depth_um": [],
                                           "links": {"9,9": {"mass_kg": 1}, "1,3": {"mass_kg": 1, "mas": 2},

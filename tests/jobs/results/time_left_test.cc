@@ -132,7 +132,7 @@ TEST(TimeLeft, TakesTheUsualCostOfAKindBeforeItIsKnown) {
   row.costs["rigid"] = {.queued = 2, .queued_s = 2.0, .queued_squares_s2 = 2.0, .longest_queued_s = 1.0};
   row.unit_s = 4.0;
   EXPECT_FALSE(jobs::estimate_time_left(row, 1).has_value());
-  row.usual_rates["rigid"] = 0.5;
+  row.cost_rates["rigid"] = 0.5;
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1)->expected_s, 2.0 * 4.0 * 0.5);
   EXPECT_EQ(jobs::estimate_time_left(row, 1)->low_s, 0.0) << "it is hardly known";
   row.rivals = {{.unit_s = 10.0, .costs = row.costs}};

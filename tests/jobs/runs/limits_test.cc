@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job and a store may take, and what becomes of what would take more.
+// Limits of jobs and of a store, and the end of jobs and requests beyond them.
 
 #include <new>
 

@@ -114,8 +114,8 @@ TEST(StoreForm, TakesOverTheSearchesOfForm3) {
   FakeEngine engine;
   make_store_of_form(3, temporary.file());
   jobs::Service service(options_of(temporary, engine, 1));
-  const std::string id = service.list_studies(StudyKind::kLimit, {}).at("items").at(0).at("id");
-  const auto search = service.find_study(StudyKind::kLimit, id).value();
+  const std::string id = service.list_studies(StudyKind::kSearch, {}).at("items").at(0).at("id");
+  const auto search = service.find_study(StudyKind::kSearch, id).value();
   EXPECT_EQ(search.at("state"), "succeeded");
   EXPECT_EQ(search.at("limits").at(0).at("verdict"), "never_exceeded");
 }

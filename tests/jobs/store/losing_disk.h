@@ -28,7 +28,7 @@ class LosingDisk {
   void leave(const std::filesystem::path& store, const std::filesystem::path& to,
              std::mt19937_64& dice) const;
 
-  // What SQLite does to files.
+  // Operations of SQLite on files.
   void opened(const std::string& path);
   void written(const std::string& path, std::size_t offset, std::string bytes);
   void cut(const std::string& path, std::size_t size);

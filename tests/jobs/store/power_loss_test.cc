@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has been acknowledged is there after the power was lost, at whatever moment.
+// Acknowledged data is there after a loss of power at any moment.
 
 #include <random>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSweeps = 40;
 
-/// What the disk held at a moment, and what clients had been told by then.
+/// Content of the disk at a moment, and the sweeps of which clients had been told by then.
 struct Loss {
   std::filesystem::path store;
   std::vector<std::string> acknowledged, cancelled, deleted;

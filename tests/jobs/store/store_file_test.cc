@@ -69,7 +69,7 @@ TEST(Store, IsRefusedUnderAnotherName) {
     std::filesystem::create_hard_link(temporary.file(), link);
     EXPECT_NE(refusal_of(link).find("in use by another process, under another name"), std::string::npos) << refusal_of(link);
     EXPECT_NE(refusal_of_copy(link).find("under another name"), std::string::npos) << refusal_of_copy(link);
-    // Who has opened it before goes on.
+    // The process that has opened the store before goes on.
     add_sweep(store, "{}");
     EXPECT_EQ(store.reader.list_sweeps("", "", 10).size(), 2U);
   }

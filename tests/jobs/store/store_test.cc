@@ -187,7 +187,7 @@ TEST(Store, FindsTheSweepsThatShareTheThreads) {
     EXPECT_EQ(row.rivals[0].unit_s, 7.0);
     EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").queued, 1);
     EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").running.size(), 1U);
-    EXPECT_EQ(row.usual_rates.at("rigid, clearance"), 0.5) << "2 s for 4 s of the ended sweep";
+    EXPECT_EQ(row.cost_rates.at("rigid, clearance"), 0.5) << "2 s for 4 s of the ended sweep";
   }
   const auto row = store.reader.find_sweep(first).value();
   EXPECT_EQ(row.unit_s, 7.0);

@@ -184,7 +184,7 @@ TEST(TrajectoryCodec, StoresWhatIsTheSameWhenRoundedOnlyOnce) {
   EXPECT_LT(blob.size(), jobs::encode_trajectory(run).size() + 100U);
 }
 
-// What a store of the first version of the program holds.
+// A blob in a store of the first version of the program.
 TEST(TrajectoryCodec, ReadsBlobsOfVersionOne) {
   const std::string hex =
       "014f00000028b52ffd244d15020022c40d1590471d8076896ca55a1f657777a7e4f908b2cdca143f50ca4bd6d1464c7557b008"

@@ -17,7 +17,7 @@ std::uint32_t u32(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// What numpy makes of it is a test of the program; here is what can be said of the bytes alone.
+// Tests of the bytes alone. A test of the program reads the file by NumPy.
 TEST(Npz, IsAZipArchiveOfStoredArrays) {
   engine::Trajectory trajectory;
   trajectory.channels = {{.key = "t_s", .help = ""}, {.key = "slider_position_m", .help = ""}};

@@ -54,7 +54,7 @@ class CannedServer {
       ::send(client, answer.data(), answer.size(), MSG_NOSIGNAL);
       ::shutdown(client, SHUT_WR);
       while (::recv(client, &c, 1, 0) > 0) {
-        // What is left of the request.
+        // The rest of the request is dropped.
       }
       ::close(client);
     }

@@ -21,7 +21,7 @@ namespace {
 
 using namespace server::commands;
 
-/// What a command that throws leaves on standard error.
+/// Text on standard error of a command that throws.
 template <typename Error>
 std::string words_of(const Error& error, int expected_code) {
   testing::internal::CaptureStderr();

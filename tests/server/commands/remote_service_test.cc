@@ -114,7 +114,7 @@ TEST(RemoteKinds, AreThoseOfTheIdsThatACommandTakes) {
   }
 }
 
-/// What a user is told of an answer, and with which exit code.
+/// Exit code and words for the user after an answer of the service.
 struct Told {
   int code;
   std::string words;

@@ -351,7 +351,7 @@ TEST_F(Http, WritesLinksAsTheProxyShowsThem) {
   EXPECT_EQ(links(get("/v1/sweeps/" + id, "X-Forwarded-Prefix: /x\r\n")).at("self"), "/x/v1/sweeps/" + id);
   const auto page = nlohmann::json::parse(body_of(get("/v1/sweeps", "X-Forwarded-Prefix: /x\r\n")));
   EXPECT_EQ(page.at("items").at(0).at("links").at("self"), "/x/v1/sweeps/" + id);
-  // What is stored under the key names no proxy; what is no path counts for nothing.
+  // The answer stored under the key names no proxy. A prefix that is no path is ignored.
   EXPECT_EQ(links(post("/v1/sweeps", body, "Idempotency-Key: k\r\n")).at("self"), "/v1/sweeps/" + id);
   for (const char* const bad : {"//evil.example", "https://evil.example", "/a/..", "x"})
     EXPECT_EQ(links(get("/v1/sweeps/" + id, std::string("X-Forwarded-Prefix: ") + bad + "\r\n")).at("self"), "/v1/sweeps/" + id) << bad;

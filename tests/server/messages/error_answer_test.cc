@@ -37,7 +37,7 @@ TEST_P(ErrorAnswer, IsAProblemWithItsStatus) {
   EXPECT_FALSE(problem.at("title").get<std::string>().empty());
   const auto detail = problem.at("detail").get<std::string>();
   EXPECT_EQ(detail.find("secret") != std::string::npos, GetParam().tells_the_text) << detail;
-  // What the user is not told can be found in the log.
+  // An answer that hides the error's text names the request, under which the log has the text.
   EXPECT_EQ(detail.find("request-7") != std::string::npos, !GetParam().tells_the_text) << detail;
 }
 

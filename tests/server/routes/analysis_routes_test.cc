@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is worked out of results: metric i of the known run is 100 i + clearance in mm, its crank turns 10 + k
-// rad in sample k of four.
+// Analyses of results. Metric i of the known run is 100 i + clearance in mm; its crank turns 10 + k rad in
+// sample k of four.
 
 #include <algorithm>
 #include <cmath>

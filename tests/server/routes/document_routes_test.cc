@@ -89,8 +89,8 @@ TEST(OpenApi, KnowsEveryKeyOfASweepRequestAndOfADesign) {
     EXPECT_EQ(design.at("additionalProperties"), false);
 }
 
-// What the page asks for is part of the program, and its policy allows no more. The program may have been
-// built without it.
+// Every part of the page comes from the program, and the page's policy allows no others. The program may
+// have been built without the page.
 TEST(Docs, ServeThePageWithAllItsParts) {
   Bench bench;
   const auto page = bench.call("GET", "/docs");

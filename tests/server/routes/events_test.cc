@@ -29,7 +29,7 @@ using server_tests::status_of;
 
 const char* const kSweep = R"({"sweep": {"clearance_mm": [0.1, 0.2, 0.3]}})";
 
-/// What stands after `name: ` in the lines of a text.
+/// Values of the lines `name: value` of a text.
 std::vector<std::string> event_lines_of(const std::string& text, const std::string& name) {
   std::vector<std::string> values;
   std::size_t start = 0;
@@ -251,7 +251,7 @@ TEST_F(EventsOverHttp, TakeNoThreadFromOthersAndHaveABound) {
   const std::string refusal = one_more.read_all();
   EXPECT_EQ(status_of(refusal), 503);
   EXPECT_NE(refusal.find("Retry-After:"), std::string::npos);
-  // Who leaves makes room.
+  // A client that leaves makes room.
   clients.pop_front();
   int status = 503;
   for (int tries = 0; tries < 100 && status == 503; ++tries) {

@@ -103,7 +103,7 @@ TEST(Routes, TakeNothingNewWhileDraining) {
   EXPECT_EQ(bench.call("GET", "/healthz").status, 200);
 }
 
-// What was let in before the service began to end, and is looked at after it has.
+// Requests let in before the service begins to end, and handled after its end.
 TEST(Routes, TakeNothingNewOnceTheServiceIsStopped) {
   Bench bench;
   bench.service().stop();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the routes promise beyond their bodies: idempotency, conditional requests, waiting, forms of a table.
+// Promises of the routes beyond their bodies: idempotency, conditional requests, waiting, forms of a table.
 
 #include <chrono>
 #include <filesystem>

@@ -238,7 +238,7 @@ engine::RunResult stiffness_run(const jobs::JobSpec& spec, const engine::StopQue
   return result;
 }
 
-/// What a row says of its set.
+/// Statistics in a row of the replicates of its set.
 json statistics_of(const json& row) {
   json statistics;
   for (const char* const key : {"count", "mean", "spread", "min", "max"})

@@ -44,7 +44,7 @@ TEST(FindFormat, WeighsWhatTheHeaderWants) {
   EXPECT_EQ(format_of("*/*, application/json;q=0.1", ""), TableFormat::kCsv);
   EXPECT_EQ(format_of("application/json;q=0, */*;q=0.1", ""), TableFormat::kCsv);
   EXPECT_EQ(format_of("application/*;q=0.5, application/x-ndjson", ""), TableFormat::kNdjson);
-  // What cannot be had, or read, changes nothing.
+  // Unknown and excluded types change nothing, nor do unreadable weights and entries.
   EXPECT_EQ(format_of("image/png", ""), TableFormat::kJson);
   EXPECT_EQ(format_of("text/csv;q=0", ""), TableFormat::kJson);
   EXPECT_EQ(format_of("text/csv;q=many, application/json;q=0.5", ""), TableFormat::kCsv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "jobs/search/limit_study.h"
+#include "jobs/search/search_study.h"
 
 #include <cstddef>
 #include <limits>
@@ -62,7 +62,7 @@ class LimitSampler final : public StudySampler {
   std::vector<std::size_t> ready_;   ///< combinations whose jobs have all ended since ask() evaluated them
 };
 
-class LimitStudy final : public StudyType {
+class SearchStudy final : public StudyType {
  public:
   [[nodiscard]] std::string_view id_prefix() const override { return kSearchPrefix; }
 
@@ -93,6 +93,6 @@ class LimitStudy final : public StudyType {
 
 }  // namespace
 
-std::unique_ptr<StudyType> make_limit_study() { return std::make_unique<LimitStudy>(); }
+std::unique_ptr<StudyType> make_search_study() { return std::make_unique<SearchStudy>(); }
 
 }  // namespace jobs

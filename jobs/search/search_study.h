@@ -8,6 +8,6 @@
 namespace jobs {
 
 /// Searches: how far a parameter may go until a metric exceeds its bound. See parse_search_request().
-[[nodiscard]] std::unique_ptr<StudyType> make_limit_study();
+[[nodiscard]] std::unique_ptr<StudyType> make_search_study();
 
 }  // namespace jobs
