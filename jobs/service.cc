@@ -184,7 +184,7 @@ std::optional<json> Service::extend_sweep(const std::string& id, const nlohmann:
   for (bool done = false; !done;) {  // again, if another extension came in between
     const auto sweep = store_->reader.find_sweep(id);
     if (!sweep) return std::nullopt;
-    if (sweep->study_id.value_or("").starts_with(kOptimisationPrefix))
+    if (sweep->study_id && !sweep->study_id->starts_with(kSearchPrefix))
       throw WrongState("the sweep holds the jobs of " + name_of_study(*sweep->study_id) +
                        ", which adds its jobs by itself");
     const Extension extension =

@@ -170,6 +170,9 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
   const json ended = wait_for_study_end(service, id);
   EXPECT_EQ(ended.at("verdict"), "hours_reached");
   EXPECT_THROW((void)service.delete_sweep(ended.at("sweep_id")), jobs::WrongState);
+  EXPECT_THROW(
+      (void)service.extend_sweep(ended.at("sweep_id"), {{"cases", {nlohmann::ordered_json::object()}}}),
+      jobs::WrongState);
   EXPECT_EQ(service.find_sweep(ended.at("sweep_id")).value().at("links").at("study"), "/v1/wear-studies/" + id);
   EXPECT_TRUE(service.delete_study(StudyKind::kWear, id));
   EXPECT_FALSE(service.find_study(StudyKind::kWear, id));
