@@ -24,6 +24,6 @@ export default [
     },
   },
   { files: ["web/**"], languageOptions: { globals: globals.browser } },
-  // What a visit evaluates in its page stands among what Node runs.
+  // Code that a visit evaluates in its page stands among code that Node runs.
   { files: ["tests/**"], languageOptions: { globals: { ...globals.node, ...globals.browser } } },
 ];

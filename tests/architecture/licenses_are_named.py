@@ -93,7 +93,7 @@ def main():
     missing = [path for path in served + works if not any(fnmatchcase(path, pattern) for pattern in patterns)]
     faults += [f"{path}: in no paragraph" for path in missing[:20]]
 
-    # What a served file says of its own parts.
+    # Holders that a served file names for its own parts.
     bundled = root / "web/node_modules/swagger-ui-dist/swagger-ui-bundle.js.LICENSE.txt"
     if bundled.exists():
         told = "\n".join(p.get("Copyright", "") for p in paragraphs)

@@ -26,7 +26,7 @@ CONSTANT = re.compile(r"\b(k[A-Z]\w*)\s*(?:\[[^\]]*\]\s*)*(?:=|$)")
 FUNCTION = re.compile(r"(?:^|[\s&*>])([A-Za-z_]\w*)\s*\(")
 USE = re.compile(r"(?<![\w.:>~])(?:(?:charts|engine|jobs|server|validation)::(?:[a-z]\w*::)?)?(\w+)(\s*\()?")
 
-# What a source declares itself, at any depth: "Type name", "auto [a, name]", "using library::Name", enumerators.
+# Names that a source declares itself, at any depth: "Type name", "auto [a, name]", "using library::Name", enumerators.
 OWN = re.compile(r"(?:(\w+)|(?<=[\w>])[&*]|(?<=[\w>*&])>|(?<=\w)\.\.\.|\bauto\s*&?\s*\[[\w, ]*)(?:\s+|(?<=\[))(\w+)\s*(?=[=({;,):\[\]>]|$)")
 BORROWED = re.compile(r"\busing\s+[\w:]+::(\w+)\s*;")
 ENUMERATOR = re.compile(r"[{,]\s*(k[A-Z]\w*)\s*(?=[,}=])")

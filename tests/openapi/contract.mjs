@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an OpenAPI document allows a service to answer.
+// Answers that an OpenAPI document allows a service.
 
 import Ajv2020 from "ajv/dist/2020.js";
 
@@ -22,7 +22,7 @@ function isPreflight({ method, status, headers }) {
   return method === "OPTIONS" && status === 204 && "access-control-allow-methods" in headers;
 }
 
-/** What the page is made of is not of the interface: only the page names it. */
+/** Parts of the page are not of the interface: only the page names them. */
 function isPartOfPage({ target }) {
   return /[.](js|css|svg|html)$|^\/linkages\//.test(target.split("?")[0]);
 }
@@ -68,7 +68,7 @@ export class Contract {
     return value.$ref.slice(2).split("/").reduce((at, key) => at[decodeURIComponent(key).replaceAll("~1", "/").replaceAll("~0", "~")], this.document);
   }
 
-  /** What is wrong with a value, as texts. */
+  /** Faults of a value, as texts. */
   faultsOf(value, ...schemaAt) {
     const pointer = pointerOf(...schemaAt);
     if (!this.validators.has(pointer)) this.validators.set(pointer, this.ajv.compile({ $ref: pointer }));
@@ -84,7 +84,7 @@ export class Contract {
   }
 
   /**
-   * What is wrong with an answer, as texts; none if the document allows it.
+   * Faults of an answer, as texts; none if the document allows the answer.
    * @param recorded {method, target, status, headers (lower case), body (text)}
    */
   check(recorded) {

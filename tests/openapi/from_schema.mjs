@@ -67,7 +67,7 @@ const strange = fc.oneof(
   fc.constantFrom(null, true, "", "rigid", [], {}, [[]], [null], -1, 0, -0, 1.5, 1e308, -1e308, 5e-324, 2 ** 53, 2 ** 63, 1e9, 4294967296, "=1+1", "\u0000", "\ud800"),
 );
 
-/** What walks into a value along random numbers and puts something strange at the place where it ends. */
+/** Copy of a value with something strange in one place; random numbers lead to the place. */
 function replaced(value, route, other) {
   if (route.length === 0 || typeof value !== "object" || value === null) return other;
   const keys = Object.keys(value);

@@ -28,7 +28,7 @@ function tame(path, body) {
   return { ...body, ...few, parameters: { ...body.parameters, ...Object.fromEntries(fixed) } };
 }
 
-/** What is wrong with how a body was taken, beside the form of the answer. */
+/** Faults in the acceptance or refusal of a body, beside the form of the answer. */
 function bodyFaults(request, exchange) {
   const schemaAt = contract.document.paths[request.path]?.[request.method.toLowerCase()] && contract.bodySchemaOf(request.path, request.method.toLowerCase());
   if (!schemaAt || request.body === undefined) return [];

@@ -22,7 +22,7 @@ types() {
 }
 expect_code 0 types
 
-# What is read or asked wrongly is found.
+# Wrong names, planted where pages read answers or make requests, are found.
 planted=()
 # plant FILE RIGHT WRONG ERROR
 plant() {

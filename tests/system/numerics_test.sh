@@ -9,7 +9,7 @@ metrics() {
 }
 "$rpsup" simulate job.json >native
 "$rpsup" simulate job.json --numerics portable --trajectory portable.csv >portable
-# What the C library takes for a lesser processor gives the same as its portable variants, though this run does not know it.
+# Variants that the C library takes for a lesser processor give the same as its portable ones, though this run does not know of them.
 GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-SSE4_1,-AVX512F "$rpsup" simulate job.json --trajectory lesser.csv >lesser
 expect_equal "$(jq -c .run.numerics native)" '"native"' "numerics that nobody asked for"
 expect_equal "$(jq -c .run.numerics portable)" '"portable"' "numerics that were asked for"

@@ -12,7 +12,7 @@ rm "$2"/server_tests.*.ndjson  # those of the next run are not to stand below th
 node "$3/check_exchanges.mjs" openapi.json exchanges.ndjson
 node "$3/query_keys.mjs" "$url"
 
-# What is written down wrongly is found.
+# Recorded answers that contradict the document are found.
 jq -cn 'first(inputs | select(.status == 201) | .status = 202)' exchanges.ndjson >wrong
 jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz" and .status == 200) | .body = "{\"status\": 1}")' exchanges.ndjson >>wrong
 jq -cn 'first(inputs | select(.method == "GET" and .target == "/healthz" and .status == 200) | .headers["x-more"] = "1")' exchanges.ndjson >>wrong

@@ -28,7 +28,7 @@ expect_equal "$(rows from_line.csv)" 52 "lines of the trajectory named on the co
 expect_code 0 "$rpsup" --config marked.ini simulate job.json --trajectory marked.csv
 cmp marked.csv from_line.csv
 
-# What SQLite would not keep in a file of that name.
+# Names under which SQLite would keep no file.
 for name in :memory: file:a.db 'file:a.db?mode=memory' ''; do
   expect_code 2 "$rpsup" serve --db "$name" --port 0
   expect_text err 'db'
@@ -63,7 +63,7 @@ expect_text err SLURM_ARRAY_TASK_ID
 SLURM_ARRAY_TASK_ID=many expect_code 2 "$rpsup" run-task . 0
 expect_code 3 "$rpsup" run-task . 0 --index 0
 expect_text err g0.list
-# What is printed and does not arrive is said, of every command.
+# Every command reports output that does not arrive.
 for words in --help 'serve --help' --version 'completion bash' man; do
   code=0
   # shellcheck disable=SC2086  # the words are arguments

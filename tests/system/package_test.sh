@@ -8,7 +8,7 @@ source "$sources/tests/system/systems.sh"
 make_packages --deb
 [ -f "$package" ] || { cat package.log; fail "there is no package"; }
 
-# What dpkg is told.
+# The fields for dpkg.
 field() { dpkg-deb --field "$package" "$1"; }
 expect_equal "$(field Package) $(field Section)" "rpsup science" "name and section"
 expect_equal "$(field Version)" "$("$rpsup" --version | sed -E 's/^rpsup //; s/[+.]g[0-9a-f]{12}(\.dirty)?$//')" "version"
@@ -113,7 +113,7 @@ if command -v strace >/dev/null && command -v systemd-analyze >/dev/null; then
   get --output copy.db "$url/v1/store"
   kill -TERM "$(awk 'NR == 1 { print $1 }' trace)"
   wait "$tracer"
-  # What starts the program comes before the filter; and SQLite gives the files it makes their owner if it is root, which the unit's user is not.
+  # The call that starts the program comes before the filter. SQLite as root gives its new files their owner; the unit's user is not root.
   before=execve
   [ "$(id -u)" -ne 0 ] || before='execve|fchown'
   sed -n 's/^[0-9]* *\([a-z0-9_]*\)(.*/\1/p' trace | sort -u | grep -vxE "$before" >called

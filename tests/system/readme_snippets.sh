@@ -33,7 +33,7 @@ echo '{"parameters": {"run_up_s": 0.1}, "cases": [{"clearance_mm": 0, "coupler":
   {"clearance_mm": 0.25, "coupler": "flexible", "duration_s": 0.3}]}' >sweep.json
 id=$(submit sweep.json)
 wait_for_end "$id"
-# What both are to find: the largest peak of all.
+# The largest peak of all, which both snippets are to find.
 worst=$(get "$url/v1/sweeps/$id/results" | jq -c 'max_by(.peak_slider_acceleration_m_s2)')
 peak=$(jq -r '.peak_slider_acceleration_m_s2 | . * 100 | round / 100' <<<"$worst")
 expect_equal "$(get "$url/v1/sweeps/$id/results" | jq 'map(.peak_slider_acceleration_m_s2 == null) | index(true)')" 1 "the row without a peak"

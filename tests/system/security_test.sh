@@ -138,7 +138,7 @@ done
 
 # The program's list of arguments, which every user may read, does not hold it either.
 ! tr '\0' ' ' <"/proc/$service/cmdline" | grep -F "$secret" || fail "the arguments hold the token"
-# What is refused for want of a token is not taken for the next request.
+# The body of a request that is refused for want of a token is not taken for the next request.
 exec 3<>"/dev/tcp/127.0.0.1/${url##*:}"
 printf 'POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 60\r\n\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\nX-Rest: 0123456\r\n\r\n' >&3
 timeout 20 cat <&3 >unread || true

@@ -30,7 +30,7 @@ expect_equal "$(get "$url/v1/jobs/$job" | jq -c '.metrics.peak_slider_accelerati
 get "$url/v1/jobs/$job/trajectory?channels=slider_acceleration_m_s2&from=0.05&to=0.06" >trajectory.json
 expect_equal "$(jq -c '.columns.t_s | [length, first, last]' trajectory.json)" '[11,0.05,0.06]' "times"
 
-# What is asked for twice is sent once; the same in other forms.
+# Results that the client has are not sent again. Results and trajectories have other forms, too.
 tag=$(get --include "$url$place/results" | tr -d '\r' | sed -n 's/^ETag: //p')
 expect_equal "$(status_of --header "If-None-Match: $tag" "$url$place/results")" 304 "results that the client has"
 expect_equal "$(get "$url$place/results?format=ndjson&order_by=-clearance_mm&fields=clearance_mm" | jq -c .clearance_mm | tr '\n' ' ')" '0.3 0 ' "rows as lines"
@@ -76,7 +76,7 @@ expect_text page "^Content-Security-Policy: default-src 'none';"
 expect_equal "$(status_of --data @padded.json "$url/v1/sweeps")" 201 "a large request without a header of its own"
 [ "$(awk '/^Max open files/ { print $4 }' "/proc/$service/limits")" -ge 4096 ] || fail "few files may be open"
 
-# What is refused.
+# Refused requests.
 expect_equal "$(status_of --data '{' "$url/v1/sweeps")" 400 "broken JSON"
 expect_equal "$(status_of --data '{"sweep": {"clearance_mm": [-1]}}' "$url/v1/sweeps")" 422 "a clearance below zero"
 expect_equal "$(status_of "$url/v1/sweeps/none")" 404 "no such sweep"

@@ -51,7 +51,7 @@ expect_text out '^first-order sensitivity indices'
 expect_text out '^2  restitution 1\.00 *$'
 expect_text out '^4 *$'
 
-# What the program itself writes is read: a study of one velocity leaves the growths open.
+# The program's own results are read. A study of one velocity leaves the growths open.
 cat >sweep.json <<'JSON'
 {"parameters": {"duration_s": 0.1, "run_up_s": 0.05},
  "sweep": {"clearance_mm": [0, 0.5], "crank_velocity_rad_s": [15], "coupler": ["rigid", "flexible"]}}

@@ -12,7 +12,7 @@ struct CoordinateSample {
   double acceleration = 0.0;
 };
 
-/// What one job gave in one code.
+/// Result of one job in one code.
 struct CodeRun {
   double peak = 0.0;  ///< of the measured coordinate's acceleration in the steady window, [m/s^2], [rad/s^2]
   long evaluations = 0;  ///< of the equations of motion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the cost grows with the elements of the coupler and with those of the contact.
+// Growth of the cost with the elements of the coupler and with those of the contact.
 //   bench_growth [SECONDS]   processor time spent on each run at most, 30 by default
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job costs beside its simulation: planning and queueing it, claiming it, reading its parameters,
-// encoding and storing what it left. One thread; CPU time of the whole process less that of the runner, so
+// Cost of a job beside its simulation: planning and queueing the job, claiming it, reading its parameters,
+// encoding and storing its results. One thread; CPU time of the whole process less that of the runner, so
 // that other programs do not matter.
 //
 // usage: bench_job_overhead [jobs without simulation] [jobs with a trajectory]

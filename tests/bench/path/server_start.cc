@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the program takes to say that it listens, on a store with many jobs.
+// Time from the start of the program to its message that it listens, on a store with many jobs.
 //
 // usage: bench_server_start PROGRAM [sweeps] [jobs of each]
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many times the jobs of one thread two threads do, by turns in some rounds, of which the median counts.
-// The ratio of passing times is only right on a quiet machine, so what it is made of is printed, too: how
-// much dearer a job is beside another one, how long threads wait for each other, and what the machine gives
-// to two threads that do nothing but simulate, without queue or store.
+// Ratio of the jobs of two threads to those of one thread, by turns in some rounds, whose median counts.
+// The ratio of passing times is only right on a quiet machine, so its parts are printed, too: the extra cost
+// of a job beside another one, the time that threads wait for each other, and the ratio for threads that do
+// nothing but simulate, without queue or store.
 //
 // usage: bench_thread_scaling [jobs] [parameters as JSON]
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large a stored trajectory is beside the JSON that the service answers with, all channels, default
-// output (5 s at 1 kHz). Also what encoding and decoding it costs.
+// Size of a stored trajectory beside the JSON of the service's answer, all channels, default output (5 s at
+// 1 kHz), and the cost of encoding and decoding the trajectory.
 
 #include "jobs/results/table_json.h"
 #include "jobs/run_job.h"

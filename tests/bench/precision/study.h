@@ -26,7 +26,7 @@ struct Setting {
   engine::RunOptions options;
 };
 
-/// What one setting gave for one case; a run that failed has neither peak nor error.
+/// Result of one setting for one case; a run that failed has neither peak nor error.
 struct Measurement {
   const PrecisionCase* what;
   const Setting* setting;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # For script/bench and the parts of it. Sourced; expects $root.
 
-# What the benchmarks need beside the packages of script/setup.
+# Packages that the benchmarks need beside those of script/setup.
 bench_packages=(libbenchmark-dev libsimbody-dev libmujoco-dev)
 
 install_packages() {

@@ -34,7 +34,7 @@ def main():
     check(len(rows) == 5 and all(",succeeded," in row for row in rows[1:]), f"the results: {rows}")
     check('"name": "slurm"' in done.stdout, done.stdout)
 
-    # What a wrong option is answered with.
+    # Answers to wrong options.
     wrong = subprocess.run([program, "check-cluster", "--slurm-folder", str(folder / "scratch"), "--slurm-partition", "none"], env=environment,
                            capture_output=True, text=True, timeout=60)
     check(wrong.returncode == 3 and "FAULT" in wrong.stdout and "partition" in wrong.stdout, f"{wrong.returncode}: {wrong.stdout}{wrong.stderr}")

@@ -196,7 +196,7 @@ class SlurmBox:
             except ProcessLookupError:
                 pass
         pid_file.unlink()
-        # What an unattended cluster finds after SlurmdTimeout and more.
+        # State of the node in an unattended cluster after SlurmdTimeout and more.
         self.run("scontrol", "update", f"nodename={node}", "state=down", "reason=power")
 
     def give_power(self, node):

@@ -113,7 +113,7 @@ class Memory:
         exchange.answer_headers, exchange.text = self.first.setdefault(exchange.path, (exchange.answer_headers, exchange.text))
 
 
-# What is changed of a request, of an answer, and of the nth event of a stream.
+# Changes of a request, of an answer, and of the nth event of a stream.
 FAULTS = {
     "none": (None, None, None),
     "a deletion is only acknowledged": (request_fault("DELETE .*", look_instead), say_no_content, None),

@@ -28,7 +28,7 @@ def headers(count):
     yield b"\r\n"
 
 
-# What is sent, and the status if one comes: whoever is cut off while it still sends may not get to see it.
+# Parts that are sent, and the status if one comes: a client that is cut off while it still sends may not get to see the status.
 FLOODS = {
     "a line of 200 MiB": ([b"GET / HTTP/1.1\r\n" + HOST + b"X: "] + [PIECE] * 3200, 431),
     "a million headers": ([b"GET / HTTP/1.1\r\n" + HOST, *headers(1_000_000)], 431),

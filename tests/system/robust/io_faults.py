@@ -17,7 +17,7 @@ from service import NoAnswer, Service, check, check_integrity, skip, small_sweep
 
 NEW_SWEEP = ("POST", "/v1/sweeps", {**small_sweep(0), "reuse": False})
 COPY = ("GET", "/v1/store")
-# What is refused when every call of the kind fails. Calls on sockets end a connection without an answer; that loses nothing.
+# Requests that are refused when every call of the kind fails. Failing calls on sockets end a connection without an answer; nothing is lost.
 POINTS = {
     "posix/io/rw/pwrite": NEW_SWEEP,
     "posix/io/rw/pread": COPY,

@@ -159,7 +159,7 @@ def check_integrity(store):
             return
         for what, query in (
                 ("jobs that succeeded without a result", "jobs WHERE state = 'succeeded' AND result IS NULL"),
-                # What failed and was tried again stays until its sweep is deleted.
+                # The result of a failed job that was tried again stays until its sweep is deleted.
                 ("results of no job", "results WHERE error_reason IS NULL AND seq NOT IN (SELECT result FROM jobs WHERE result IS NOT NULL)"),
                 ("results without a trajectory", "results WHERE error_reason IS NULL AND seq NOT IN (SELECT result FROM trajectories)")):
             count = database.execute("SELECT count(*) FROM " + query).fetchone()[0]
