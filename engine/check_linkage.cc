@@ -175,6 +175,9 @@ void check_masses(const Linkage& linkage, const BuiltLinkage& built, const Evalu
   if (free.empty()) return;
   const bool alone = free.size() > kMany;
   Mechanism mechanism = built.mechanism;
+  constexpr double kSingular = 1e-6;  // cosine
+  if (const auto locked = find_gimbal_lock(mechanism, assembled.q, kSingular))
+    throw InvalidInput(owner_of(linkage, built, *locked), describe_gimbal_lock(mechanism, *locked));
   Evaluation at = assembled;
   SphericalCharts(mechanism).update(mechanism, at.q, at.qd);
   const Eigen::MatrixXd M = calc_mass_matrix(mechanism, at, free, alone);

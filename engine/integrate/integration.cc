@@ -206,14 +206,21 @@ void Integration::fail(EvaluationStatus status) {
     fail(RunStatus::kLockUp, "the linkage cannot follow its drives any further");
   else if (status == EvaluationStatus::kWedged)
     fail(RunStatus::kLockUp,
-         "friction by reactions wedges the linkage; a smaller coefficient or radius, or a longer bearing, "
-         "may help");
+         describe_lock_or("friction by reactions wedges the linkage; a smaller coefficient or radius, or a "
+                          "longer bearing, may help"));
   else if (status == EvaluationStatus::kOutOfRange)
     fail(RunStatus::kContactRange,
          "the journal goes deeper into the bore than the stiffness law holds; "
          "hertz and liu have no such limit");
   else
     fail(RunStatus::kNonFinite, "the state is no longer a number; a smaller step or tolerance may help");
+}
+
+/// Cause of a failure: gimbal lock, or the given one.
+std::string Integration::describe_lock_or(std::string otherwise) const {
+  constexpr double kNear = 0.05;  // cosine
+  const std::optional<FrameIndex> locked = find_gimbal_lock(mechanism_, start_.at.q, kNear);
+  return locked ? describe_gimbal_lock(mechanism_, *locked) : std::move(otherwise);
 }
 
 void Integration::fail(RunStatus status, std::string detail) {
@@ -290,7 +297,8 @@ void Integration::set_next_step(double dt, double error) {
   hopeless_steps_ = dt_ < kHopeless ? hopeless_steps_ + 1 : 0;
   if (hopeless_steps_ == kMaxHopelessSteps)
     fail(RunStatus::kStepUnderflow,
-         "the motion asks for steps below 1e-11 s: a linkage that jams does, and very light bodies in loops");
+         describe_lock_or("the motion asks for steps below 1e-11 s: a linkage that jams does, and very light "
+                          "bodies in loops"));
 }
 
 /// @returns whether the step just tried has passed by what a table over position or velocity says
@@ -322,7 +330,8 @@ bool Integration::accept_or_shrink(const Trial& trial, double dt) {
   dt_ = dt * (evaluated ? control_.reject(trial.error) : 0.25);
   if (dt_ < shortest_step(start_.t)) {
     if (evaluated)
-      fail(RunStatus::kStepUnderflow, "the error stays above the tolerance however small the step");
+      fail(RunStatus::kStepUnderflow,
+           describe_lock_or("the error stays above the tolerance however small the step"));
     else
       fail(trial.status);
   }

@@ -56,6 +56,7 @@ class Integration {
   void evaluate_again(StepPoint& end);
   void widen_bristles();
   void fail(EvaluationStatus status);
+  [[nodiscard]] std::string describe_lock_or(std::string otherwise) const;
   void fail(RunStatus status, std::string detail);
 
   Mechanism mechanism_;  ///< with the placements of the present charts

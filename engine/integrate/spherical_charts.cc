@@ -24,14 +24,14 @@ bool is_held(const Mechanism& mechanism, FrameIndex i) {
          });
 }
 
-bool is_free_rotation(const Mechanism& mechanism, FrameIndex i, Axis axis) {
+bool is_rotation(const Mechanism& mechanism, FrameIndex i, Axis axis) {
   const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
-  return c.motion == Motion::kRotation && c.axis == axis && !is_held(mechanism, i);
+  return c.motion == Motion::kRotation && c.axis == axis;
 }
 
 bool begins_spherical_joint(const Mechanism& mechanism, FrameIndex psi) {
-  if (!is_free_rotation(mechanism, psi, Axis::kZ) || !is_free_rotation(mechanism, psi + 1, Axis::kY) ||
-      !is_free_rotation(mechanism, psi + 2, Axis::kX))
+  if (!is_rotation(mechanism, psi, Axis::kZ) || !is_rotation(mechanism, psi + 1, Axis::kY) ||
+      !is_rotation(mechanism, psi + 2, Axis::kX))
     return false;
   for (const FrameIndex inner : {psi + 1, psi + 2}) {
     const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(inner)];
@@ -40,6 +40,20 @@ bool begins_spherical_joint(const Mechanism& mechanism, FrameIndex psi) {
       return false;
   }
   return true;
+}
+
+/// @returns whether anything acts on the angles of a spherical joint
+bool is_held_joint(const Mechanism& mechanism, FrameIndex psi) {
+  return is_held(mechanism, psi) || is_held(mechanism, psi + 1) || is_held(mechanism, psi + 2);
+}
+
+/// First rotations of all spherical joints.
+std::vector<FrameIndex> list_spherical_joints(const Mechanism& mechanism) {
+  std::vector<FrameIndex> found;
+  const auto count = static_cast<FrameIndex>(mechanism.coordinates.size());
+  for (FrameIndex i = 0; i + 2 < count; ++i)
+    if (begins_spherical_joint(mechanism, i)) found.push_back(i);
+  return found;
 }
 
 Eigen::Matrix3d calc_rotation(const Eigen::Vector3d& angles) {
@@ -105,8 +119,8 @@ Eigen::Vector3d find_angles(const Eigen::Matrix3d& R, const Eigen::Vector3d& nea
 }  // namespace
 
 SphericalCharts::SphericalCharts(const Mechanism& mechanism) : given_(mechanism) {
-  for (FrameIndex i = 0; i + 2 < static_cast<FrameIndex>(mechanism.coordinates.size()); ++i)
-    if (begins_spherical_joint(mechanism, i)) joints_.push_back({.psi = i});
+  for (const FrameIndex psi : list_spherical_joints(mechanism))
+    if (!is_held_joint(mechanism, psi)) joints_.push_back({.psi = psi});
 }
 
 bool SphericalCharts::update(Mechanism& mechanism, Eigen::VectorXd& q, Eigen::VectorXd& qd) {
@@ -157,6 +171,19 @@ void GivenChartObserver::on_step(const Evaluation& start, const Evaluation& end)
   const Evaluation& to = restore(end, end_);
   last_ = charts_.angles_of(to.q);
   observer_.on_step(from, to);
+}
+
+std::optional<FrameIndex> find_gimbal_lock(const Mechanism& mechanism, const Eigen::VectorXd& q,
+                                           double near) {
+  for (const FrameIndex psi : list_spherical_joints(mechanism))
+    if (is_held_joint(mechanism, psi) && std::abs(std::cos(q[psi + 1])) < near) return psi + 1;
+  return std::nullopt;
+}
+
+std::string describe_gimbal_lock(const Mechanism& mechanism, FrameIndex middle) {
+  return "at a right angle of " + mechanism.coordinates[static_cast<std::size_t>(middle)].name +
+         " the two other axes of its joint coincide, where springs, dampers, drives and friction on its "
+         "angles have no limit: leave them out, or turn the frame of the joint";
 }
 
 }  // namespace engine

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,6 +23,9 @@ namespace engine {
 ///
 /// C becomes part of the joint's placement. Source of the singularity: A. A. Shabana, Dynamics of Multibody
 /// Systems (2020), section 2.6.
+///
+/// Springs, dampers, drives, actuators and couplings act on the angles of one chart: with any of them there
+/// is no other chart, and gimbal lock is a limit of the linkage.
 class SphericalCharts {
  public:
   explicit SphericalCharts(const Mechanism& mechanism);
@@ -78,5 +83,13 @@ class GivenChartObserver : public Observer {
   SphericalCharts::Angles last_;  ///< at the end of the last step
   Evaluation start_, end_, inside_;
 };
+
+/// Middle angle of a spherical joint that is in gimbal lock and has no other chart; empty: there is none.
+/// @param near  cosine of the angle that counts as the lock
+[[nodiscard]] std::optional<FrameIndex> find_gimbal_lock(const Mechanism& mechanism, const Eigen::VectorXd& q,
+                                                         double near);
+
+/// Sentence on such a joint, and on ways out.
+[[nodiscard]] std::string describe_gimbal_lock(const Mechanism& mechanism, FrameIndex middle);
 
 }  // namespace engine
