@@ -149,6 +149,7 @@ double find_next_jump(const RiseReturnPause& law, double t) {
 
 double find_next_jump(const DriveLaw& law, double t) {
   if (const auto* const strokes = std::get_if<RiseReturnPause>(&law)) return find_next_jump(*strokes, t);
+  if (const auto* const spline = std::get_if<Spline>(&law)) return spline->next_knot(t);
   const auto* const table = std::get_if<VelocityTable>(&law);
   return table ? find_next_jump(*table, t) : kNever;
 }

@@ -101,7 +101,8 @@ using DriveLaw =
 [[nodiscard]] inline double find_next_corner(const VelocityTable& law, double t) { return law.next_point(t); }
 [[nodiscard]] double find_next_corner(const DriveLaw& law, double t);
 
-/// First instant after t at which the law's acceleration jumps. Infinite if none follows, [s]
+/// First instant after t at which the law's acceleration jumps, or, of a spline, has a kink: an extremum that
+/// no step may cross. Infinite if none follows, [s]
 [[nodiscard]] double find_next_jump(const RiseReturnPause& law, double t);
 [[nodiscard]] inline double find_next_jump(const VelocityTable& law, double t) { return law.next_jump(t); }
 [[nodiscard]] double find_next_jump(const DriveLaw& law, double t);
