@@ -230,8 +230,6 @@ void check_body_load(const json& load, const std::string& pointer, std::vector<F
                    &moment = force_or_torque(engine::Motion::kRotation);
   if (load.contains(force.key) == load.contains(moment.key))
     faults.push_back({pointer, "must have either a force_n or a torque_n_m"});
-  if (load.contains(moment.key) && load.contains("at_m"))
-    faults.push_back({pointer + "/at_m", "belongs to a force: a moment acts alike at all points of a body"});
   for (const EffortKeys* const effort : {&force, &moment})
     if (load.contains(effort->key))
       check_effort(load.at(effort->key), *effort, engine::Motion::kRotation, EffortVariables::kTime,

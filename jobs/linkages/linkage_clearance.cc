@@ -183,7 +183,7 @@ void check_clearance(const json& joint, JointKind kind, const engine::RpsupParam
     check_fields(joint.at("cross"), cross_fields(), pointer + "/cross", faults);
   if (faults.size() > before) return;
   const engine::RpsupParameters given = clearance_parameters(clearance, defaults);
-  constexpr double kLeast = 1e-9;  // [m]
+  constexpr double kLeast = 1e-9 * (1.0 - 1e-12);  // [m], without the rounding of its unit
   if (given.c_r > 0.0 && given.c_r < kLeast)
     faults.push_back({at + "/clearance_mm", "must be 0 or at least 1e-6 mm"});
   if (kind == JointKind::kUniversal && !is_inertia_of_a_body(joint.at("cross")))

@@ -222,7 +222,6 @@ const RefusedLoad kRefusedLoads[] = {
     {"direction_of_nothing", R"({"body": "slider", "direction": [0, 0, 0], "force_n": 1})", "/direction"},
     {"neither", R"({"body": "slider", "direction": [1, 0, 0]})", ""},
     {"both", R"({"body": "slider", "direction": [1, 0, 0], "force_n": 1, "torque_n_m": 1})", ""},
-    {"point_of_a_moment", R"({"body": "slider", "direction": [1, 0, 0], "torque_n_m": 1, "at_m": [1, 0, 0]})", "/at_m"},
     {"over_the_position", R"({"body": "slider", "direction": [1, 0, 0], "force_n": {"law": "table", "positions_m": [0, 1], "values_n": [0, 1],
      "times_s": [0, 1]}})", "/force_n/positions_m"},
 };

@@ -43,6 +43,43 @@ engine::RunResult run(const json& parameters) {
   return engine::simulate_linkage(*spec.linkage, spec.options, spec.parameters.run_up, {});
 }
 
+/// A cantilever at rest under a moment about its axis: its potential energy is M^2 L / (2 G J).
+TEST(LinkageLoads, AMomentTwistsABeamUpToItsPlace) {
+  json parameters = json::parse(R"({"linkage": {
+      "bodies": {"b": {"mass_kg": 1, "beam": {"length_m": 1, "diameter_mm": 20, "elements": 8, "damping_ratio": 0.5}}},
+      "joints": {"w": {"kind": "weld", "from": "ground", "to": "b"}}, "gravity_m_s2": [0, 0, 0],
+      "loads": {"m": {"body": "b", "direction": [1, 0, 0], "torque_n_m": 3}}},
+    "duration_s": 0.3, "run_up_s": 0})");
+  const auto energy_at = [&](double x) {
+    parameters["linkage"]["loads"]["m"]["at_m"] = {x, 0, 0};
+    return column(run(parameters).trajectory, "potential_energy_j").back();
+  };
+  const double GJ = 0.8e11 * std::numbers::pi * std::pow(0.02, 4) / 32.0;
+  EXPECT_NEAR(energy_at(1.0) / (9.0 / (2.0 * GJ)), 1.0, 0.01);
+  EXPECT_NEAR(energy_at(0.5) / energy_at(1.0), 0.5, 0.08);  // up to half an element
+}
+
+/// A damper on an angle of a ball joint has no limit at a right angle of the middle one: the run names it,
+/// and a start there is refused.
+TEST(GimbalLock, IsNamedWhereSomethingActsOnTheAngles) {
+  json parameters = json::parse(R"({"linkage": {
+      "bodies": {"b": {"mass_kg": 1, "centre_of_mass_m": [0.3, 0, 0], "inertia_kg_m2": [0.001, 0.01, 0.01]}},
+      "joints": {"j": {"kind": "spherical", "from": "ground", "to": "b", "freedoms": {
+        "z": {"start_rate_rad_s": 0.2, "damping_n_m_s_rad": 0.02}}}}, "gravity_m_s2": [0, 0, -9.81]},
+    "duration_s": 1, "run_up_s": 0})");
+  const engine::RunResult ended = run(parameters);
+  EXPECT_EQ(ended.status, engine::RunStatus::kStepUnderflow);
+  EXPECT_EQ(ended.detail.find("at a right angle of j_y"), 0U) << ended.detail;
+  parameters["linkage"]["joints"]["j"]["freedoms"]["y"] = {{"start_rad", std::numbers::pi / 2}};
+  try {
+    (void)run(parameters);
+    ADD_FAILURE() << "a start in gimbal lock is no start";
+  } catch (const std::exception& refused) {
+    EXPECT_NE(std::string(refused.what()).find("at a right angle of j_y"), std::string::npos)
+        << refused.what();
+  }
+}
+
 class LinkageExample : public testing::TestWithParam<const char*> {};
 
 TEST_P(LinkageExample, Runs) {
