@@ -67,7 +67,7 @@ class FitParser : private FittedMeasurementsParser {
 
  private:
   void read_common() {
-    made_.common_sweep = parts_of(kSweepKeys);
+    made_.common_sweep = take_keys(request_, kSweepKeys);
     try {
       common_ = parse_sweep_request(made_.common_sweep, max_jobs_);
     } catch (const InvalidRequest& invalid) {
@@ -208,9 +208,20 @@ class FitParser : private FittedMeasurementsParser {
     return paths;
   }
 
+  /// A value has one place: the request or the run.
+  void check_parameters_of_run(std::size_t run) {
+    const std::vector<std::string> given = paths_of(request_.value("parameters", ordered_json::object()));
+    const FitRun& one = made_.runs[run];
+    for (const std::string& path : paths_of(ordered_json(measured_run(run).parameters)))
+      if (std::ranges::find(given, path) != given.end())
+        fault("/parameters" + pointer_of_path(path), "is known of run " + std::to_string(one.number) +
+                                                         " of " + one.measurement_id + ": leave it out here");
+  }
+
   /// Gives each run values of all paths that some run has its own value of: rows of a sweep have one list of
   /// paths.
   void add_parameters_of_runs() {
+    for (std::size_t k = 0; k < made_.runs.size(); ++k) check_parameters_of_run(k);
     std::vector<std::string> paths = list_paths_of_runs();
     const auto is_of_all = [&](const std::string& path) {
       return std::ranges::any_of(made_.parameters, [&](const FitParameter& one) {

@@ -48,7 +48,7 @@ class OptimisationParser : private RequestParser {
 
   void read_common() {
     try {
-      made_.common = parse_sweep_request(parts_of(kCommonKeys), max_jobs_);
+      made_.common = parse_sweep_request(take_keys(request_, kCommonKeys), max_jobs_);
       for (const engine::QuantityInfo& metric : metric_table(made_.common.parameters))
         metrics_.push_back(metric.key);
     } catch (const InvalidRequest& invalid) {
@@ -92,7 +92,7 @@ class OptimisationParser : private RequestParser {
     if (goal != "minimise" && goal != "maximise")
       fault(pointer + "/goal", "must be \"minimise\" or \"maximise\"");
     objective.goal = goal == "maximise" ? Goal::kMaximise : Goal::kMinimise;
-    objective.quantile = read_quantile(given, pointer, objective.goal == Goal::kMinimise ? 1.0 : 0.0);
+    objective.quantile = read_quantile(given, pointer);
     made_.objectives.push_back(std::move(objective));
   }
 
@@ -143,12 +143,12 @@ class OptimisationParser : private RequestParser {
     return "\"" + name + "\": " + describe_unknown_key(name, known);
   }
 
-  double read_quantile(const json& given, const std::string& pointer, double worst) {
-    if (!given.contains("quantile")) return worst;
+  double read_quantile(const json& given, const std::string& pointer) {
+    if (!given.contains("quantile")) return kAll;
     constexpr Range kQuantile{.minimum = 0.0, .maximum = 1.0};
     const bool right =
         is_right(pointer + "/quantile", describe_number_fault(kQuantile, "", given.at("quantile")));
-    return right ? given.at("quantile").get<double>() : worst;
+    return right ? given.at("quantile").get<double>() : kAll;
   }
 
   void read_bounds() {
@@ -172,7 +172,7 @@ class OptimisationParser : private RequestParser {
     };
     if (std::ranges::any_of(made_.bounds, is_same))
       fault(pointer, "bounds the metric on that side, as another one does");
-    bound.quantile = read_quantile(given, pointer, given.contains("maximum") ? 1.0 : 0.0);
+    bound.quantile = read_quantile(given, pointer);
     made_.bounds.push_back(std::move(bound));
   }
 

@@ -33,19 +33,22 @@ inline constexpr Range kOptimiserSeedRange{.minimum = 0, .maximum = 4294967295.0
 
 enum class Goal { kMinimise, kMaximise };
 
-/// Metric that is optimised: a quantile of its values over the jobs of one candidate.
+/// Part of a candidate's jobs that must be at least as good as the value that counts: the worst one does.
+inline constexpr double kAll = 1.0;
+
+/// Metric that is optimised: the value that a part of the jobs of one candidate reaches.
 struct Objective {
   std::string metric;
   Goal goal = Goal::kMinimise;
-  double quantile = 1.0;  ///< 0: the least value, 1: the largest
+  double quantile = kAll;
 };
 
-/// Metric that is kept within bounds: a quantile of its values over the jobs of one candidate.
+/// Metric that a part of the jobs of one candidate keeps within bounds.
 struct MetricBound {
   std::string metric;
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  double quantile = 1.0;
+  double quantile = kAll;
 };
 
 /// Request of an optimisation: the values of some parameters for which metrics are least or largest. Each

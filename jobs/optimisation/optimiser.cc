@@ -95,16 +95,26 @@ std::vector<StartSearch> make_starts(const OptimisationRequest& request) {
   return starts;
 }
 
+/// Value that this part of the values reaches: at most, or at least where large values are good.
+double calc_level(std::vector<double> values, double part, bool large_is_good) {
+  if (!large_is_good) return calc_quantile(std::move(values), part);
+  for (double& value : values) value = -value;
+  return -calc_quantile(std::move(values), part);
+}
+
 }  // namespace
 
 double objective_of(const OptimisationRequest& request, const OptimisationCandidate& candidate,
                     std::size_t objective) {
-  return calc_quantile(candidate.metrics[objective], request.objectives[objective].quantile);
+  const Objective& of = request.objectives[objective];
+  return calc_level(candidate.metrics[objective], of.quantile, of.goal == Goal::kMaximise);
 }
 
 double bound_value_of(const OptimisationRequest& request, const OptimisationCandidate& candidate,
                       std::size_t bound) {
-  return calc_quantile(candidate.metrics[request.objectives.size() + bound], request.bounds[bound].quantile);
+  const MetricBound& of = request.bounds[bound];
+  return calc_level(candidate.metrics[request.objectives.size() + bound], of.quantile,
+                    std::isinf(of.maximum));
 }
 
 std::string_view state_name(CandidateState state) {

@@ -18,6 +18,16 @@
 
 namespace jobs {
 
+/// Part of a request with these keys: the part that a study has in common with its sweep.
+template <std::size_t n>
+[[nodiscard]] nlohmann::ordered_json take_keys(const nlohmann::ordered_json& request,
+                                               const std::array<std::string_view, n>& keys) {
+  nlohmann::ordered_json part = nlohmann::ordered_json::object();
+  for (const std::string_view key : keys)
+    if (request.contains(key)) part[std::string(key)] = request.at(key);
+  return part;
+}
+
 /// Base of the parsers of studies: gathers the faults of a request.
 class RequestParser {
  protected:
@@ -59,15 +69,6 @@ class RequestParser {
     const nlohmann::json given = request_.at(key);
     return is_right(std::string("/") + key, describe_integer_fault(range, given)) ? given.get<std::uint64_t>()
                                                                                   : otherwise;
-  }
-
-  /// The part of the request that it has in common with a sweep.
-  template <std::size_t n>
-  [[nodiscard]] nlohmann::ordered_json parts_of(const std::array<std::string_view, n>& keys) const {
-    nlohmann::ordered_json parts = nlohmann::ordered_json::object();
-    for (const std::string_view key : keys)
-      if (request_.contains(key)) parts[std::string(key)] = request_.at(key);
-    return parts;
   }
 
   const nlohmann::ordered_json& request_;

@@ -126,7 +126,7 @@ class SearchParser : private RequestParser {
   /// Reads the keys that a search has in common with a sweep.
   void read_common() {
     try {
-      search_.common = parse_sweep_request(parts_of(kKeysOfItsSweeps), max_jobs_);
+      search_.common = parse_sweep_request(take_keys(request_, kKeysOfItsSweeps), max_jobs_);
       common_is_read_ = true;
       add_metrics(search_.common.parameters);
     } catch (const InvalidRequest& invalid) {
@@ -199,10 +199,8 @@ ordered_json case_at(const SearchRequest& search, const std::vector<json>& combi
 }
 
 ordered_json first_sweep_of(const ordered_json& request, const SearchRequest& search) {
-  ordered_json sweep = ordered_json::object();
-  for (const std::string_view key : kKeysOfItsSweeps) {
-    if (key != "sweep" && request.contains(key)) sweep[std::string(key)] = request.at(key);
-  }
+  ordered_json sweep = take_keys(request, kKeysOfItsSweeps);
+  sweep.erase("sweep");
   sweep["cases"] = ordered_json::array();
   for (const auto& combination : combinations_of(search)) {
     for (const double x : first_values(search.interval)) {

@@ -10,14 +10,18 @@
 
 namespace jobs {
 
+namespace {
+
+constexpr const char* kAddContent =
+    "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO NOTHING";
+
+}  // namespace
+
 JobInserter::JobInserter(SQLite::Database& database, IdMaker& ids, std::int64_t now_ms, std::int64_t change)
     : ids_(ids),
       now_ms_(now_ms),
       change_(change),
-      add_content_(
-          database,
-          "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO "
-          "NOTHING"),
+      add_content_(database, kAddContent),
       find_content_(database, "SELECT seq FROM contents WHERE content_id = ?"),
       find_result_(database, "SELECT max(seq) FROM results WHERE content = ? AND error_reason IS NULL"),
       add_job_(
@@ -124,10 +128,7 @@ std::vector<QueuedContent> find_contents_of_other_engines(SQLite::Database& data
 
 /// Adds the content of this engine, unless there is one.
 void insert_content(SQLite::Database& database, const std::string& id, const std::string& parameters) {
-  SQLite::Statement add(
-      database,
-      "INSERT INTO contents (content_id, engine_version, parameters) VALUES (?, ?, ?) ON CONFLICT DO "
-      "NOTHING");
+  SQLite::Statement add(database, kAddContent);
   add.bind(1, id);
   add.bind(2, engine_version());
   add.bind(3, parameters);

@@ -9,6 +9,7 @@
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/wear_depth.h"
 #include "jobs/requests/parameters.h"
+#include "jobs/requests/request_parser.h"
 
 namespace jobs {
 namespace {
@@ -17,14 +18,6 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 4> kKeysOfItsSweep{"name", "parameters", "reuse", "priority"};
-
-/// The part of a study's request that is of its sweep.
-ordered_json sweep_part_of(const ordered_json& request) {
-  ordered_json sweep = ordered_json::object();
-  for (const std::string_view key : kKeysOfItsSweep)
-    if (request.contains(key)) sweep[std::string(key)] = request.at(key);
-  return sweep;
-}
 
 /// Parameter with which a bearing cannot be worn from new.
 std::optional<Fault> find_unfit_parameter(const json& given) {
@@ -39,49 +32,31 @@ std::optional<Fault> find_unfit_parameter(const json& given) {
 }
 
 /// Reads one request; a member function a part of it.
-class WearParser {
+class WearParser : public RequestParser {
  public:
-  WearParser(const ordered_json& request, std::size_t max_jobs) : request_(request), max_jobs_(max_jobs) {}
+  WearParser(const ordered_json& request, std::size_t max_jobs)
+      : RequestParser(request), max_jobs_(max_jobs) {}
 
   WearStudyRequest parse() {
-    if (!request_.is_object()) throw InvalidRequest(std::vector<Fault>{{"", "must be an object"}});
-    for (const auto& [key, value] : request_.items()) {
-      if (std::ranges::find(kWearStudyKeys, key) == kWearStudyKeys.end()) {
-        fault(pointer_token(key), describe_unknown_key(key, kWearStudyKeys));
-      }
-    }
+    check_keys_of(request_, "", kWearStudyKeys);
     read_rule();
     read_common();
-    if (!faults_.empty()) throw InvalidRequest(std::move(faults_));
+    throw_if_faulty();
     return std::move(study_);
   }
 
  private:
-  void fault(std::string pointer, std::string detail) {
-    faults_.push_back({std::move(pointer), std::move(detail)});
-  }
-
-  void add_faults(const InvalidRequest& invalid) {
-    faults_.insert(faults_.end(), invalid.faults().begin(), invalid.faults().end());
-  }
-
   template <typename T>
   void take_number(const char* key, const Range& range, std::string_view unit, T& value) {
     if (!request_.contains(key)) return;
     const json given = request_.at(key);
-    if (std::string detail = describe_number_fault(range, unit, given); !detail.empty()) {
-      return fault(pointer_token(key), std::move(detail));
-    }
-    value = given.get<double>();
+    if (is_right(pointer_token(key), describe_number_fault(range, unit, given))) value = given.get<double>();
   }
 
   void take_count(const char* key, const Range& range, std::size_t& value) {
     if (!request_.contains(key)) return;
     const json given = request_.at(key);
-    if (std::string detail = describe_integer_fault(range, given); !detail.empty()) {
-      return fault(pointer_token(key), std::move(detail));
-    }
-    value = given.get<std::size_t>();
+    if (is_right(pointer_token(key), describe_integer_fault(range, given))) value = given.get<std::size_t>();
   }
 
   void read_rule() {
@@ -99,7 +74,7 @@ class WearParser {
 
   void read_common() {
     try {
-      study_.common = parse_sweep_request(sweep_part_of(request_), max_jobs_);
+      study_.common = parse_sweep_request(take_keys(request_, kKeysOfItsSweep), max_jobs_);
       const json& given = study_.common.parameters;
       if (auto unfit = find_unfit_parameter(given)) return faults_.push_back(std::move(*unfit));
       study_.completed = complete_parameters(given, "/parameters");
@@ -143,10 +118,8 @@ class WearParser {
     }
   }
 
-  const ordered_json& request_;
   std::size_t max_jobs_;
   WearStudyRequest study_;
-  std::vector<Fault> faults_;
 };
 
 }  // namespace
@@ -158,7 +131,7 @@ WearStudyRequest parse_wear_request(const ordered_json& request, std::size_t max
 ordered_json case_of(const WearGrid& depth_um) { return {{std::string(kWearKey), depth_um}}; }
 
 ordered_json first_sweep_of(const ordered_json& request, const WearStudyRequest& study) {
-  ordered_json sweep = sweep_part_of(request);
+  ordered_json sweep = take_keys(request, kKeysOfItsSweep);
   sweep["cases"] = ordered_json::array({case_of(study.round_bore())});
   return sweep;
 }

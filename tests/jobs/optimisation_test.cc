@@ -111,6 +111,15 @@ TEST(Optimisation, TakesTheWorstOverAxesAndReplicates) {
   request["objectives"][0]["quantile"] = 0.0;
   const json least = run(service, request);
   EXPECT_NEAR(least.at("best").at("metrics").at(metric()).get<double>(), std::sqrt(2000.0), 0.1);
+  // The same part of the jobs is as good where large values are.
+  request["objectives"][0]["goal"] = "maximise";
+  request["objectives"][0]["quantile"] = 1.0;
+  const json all = run(service, request);
+  request["objectives"][0].erase("quantile");
+  EXPECT_EQ(run(service, request).at("best").at("metrics"), all.at("best").at("metrics"));
+  request["objectives"][0]["quantile"] = 0.0;
+  EXPECT_GT(run(service, request).at("best").at("metrics").at(metric()).get<double>(),
+            all.at("best").at("metrics").at(metric()).get<double>() + 1.0);
 }
 
 TEST(Optimisation, WaitsForTheJobsThatEachCandidateHas) {
