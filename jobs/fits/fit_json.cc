@@ -55,6 +55,13 @@ bool is_identified(const FitSummary& summary, const Span& span, std::size_t i) {
   return interval.low.verdict != ProfileVerdict::kOpen || interval.high.verdict != ProfileVerdict::kOpen;
 }
 
+/// Null where a larger budget might tell.
+json identified_json(const FitSummary& summary, const Span& span, std::size_t i) {
+  if (!summary.intervals) return nullptr;
+  if (is_identified(summary, span, i)) return true;
+  return summary.budget_ended_local ? json() : json(false);
+}
+
 json parameters_json(const FitProblem& problem, const FitSummary& summary) {
   json made = json::array();
   for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
@@ -64,7 +71,7 @@ json parameters_json(const FitProblem& problem, const FitSummary& summary) {
              {"linearised", linear_json(summary, i)},
              {"profile", profile_json(summary, i)},
              {"range", range_json(summary, i)},
-             {"identified", summary.intervals ? json(is_identified(summary, parameter.span, i)) : json()},
+             {"identified", identified_json(summary, parameter.span, i)},
              {"from", parameter.span.from},
              {"to", parameter.span.to}};
     made.push_back(std::move(one));
@@ -88,7 +95,7 @@ json error_json(const std::optional<SignalError>& error) {
   if (!error) return nullptr;
   return {{"samples", error->samples},
           {"rms", error->rms},
-          {"relative_rms", error->relative_rms},
+          {"relative_rms", value_or_null(error->relative_rms)},
           {"measured_peak", error->measured_peak},
           {"predicted_peak", error->predicted_peak}};
 }
@@ -156,6 +163,12 @@ std::vector<const char*> uses_of(const MeasuredSignal& measured) {
 json remarks_json(const FitProblem& problem, const FitSummary& summary) {
   json remarks = summary.remarks;
   if (!summary.intervals) return remarks;
+  if (summary.budget_ended_local) {
+    remarks.push_back(
+        "The budget ended the fit on its way: a larger one may find better values, and tell parameters that "
+        "have no interval yet.");
+    return remarks;
+  }
   std::vector<std::string> names;
   for (const FitParameter& parameter : problem.parameters) names.push_back(parameter.path);
   for (std::string& sentence : describe_unidentifiable(names, *summary.intervals))

@@ -235,7 +235,9 @@ std::optional<SignalError> FitObserver::compare(const FitSignal& signal, const P
   const double mean = mean_of(measured);
   for (double& value : measured) value -= mean;
   const double variation = rms_of(measured);
-  error.relative_rms = variation > 0.0 ? error.rms / variation : 0.0;
+  // Rounding of the mean leaves a constant signal some variation.
+  constexpr double kConstant = 1e-13;  // of the mean
+  if (variation > kConstant * std::abs(mean)) error.relative_rms = error.rms / variation;
   return error;
 }
 

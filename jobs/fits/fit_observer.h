@@ -29,7 +29,8 @@ struct Prediction {
 struct SignalError {
   std::size_t samples = 0;
   double rms = 0.0;           ///< in the unit of the channel
-  double relative_rms = 0.0;  ///< over the RMS of the measured samples about their mean
+  /// over the RMS of the measured samples about their mean; empty if they do not vary
+  std::optional<double> relative_rms = {};
   double measured_peak = 0.0, predicted_peak = 0.0;  ///< largest magnitudes
 };
 

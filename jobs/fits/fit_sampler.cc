@@ -296,8 +296,8 @@ void FitSampler::end_local(LeastSquaresResult result) {
   const bool is_fit = !result.x.empty() && result.end != FitEnd::kStartFailed;
   if (is_fit && !ends_) return is_point_wise() ? end_pass(result) : end_feature_pass(result);
   if (is_fit && is_point_wise()) judge_residuals(as_vector(result.residuals));
-  summary_.local_end =
-      result.end == FitEnd::kMostEvaluations ? "The budget ended the least squares." : result.message;
+  summary_.budget_ended_local = result.end == FitEnd::kMostEvaluations;
+  summary_.local_end = summary_.budget_ended_local ? "The budget ended the least squares." : result.message;
   summary_.stage = FitStage::kPrediction;
   if (result.x.empty() || result.end == FitEnd::kStartFailed) {
     summary_.remarks.push_back("There are no intervals: " + result.message);

@@ -71,6 +71,7 @@ struct FitSummary {
   std::optional<SignalDivergence> divergence{};
   std::optional<std::size_t> best{};        ///< index of the point with the least sum
   std::optional<std::string> local_end{};   ///< end of the least squares, a sentence
+  bool budget_ended_local = false;          ///< whether the budget was that end
   std::optional<FitIntervals> intervals{};  ///< at the best point
   std::optional<std::vector<ProfileInterval>> profiles{};
   std::vector<ValueRange> ranges{};  ///< of points about as good as the best; empty where profiles are

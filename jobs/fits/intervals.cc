@@ -163,7 +163,8 @@ std::string describe_direction(const std::vector<std::string>& rising,
   const std::string subject = all.size() == 2 ? all[0] + " cannot be told from " + all[1]
                                               : join(all) + " cannot be told from each other";
   if (rising.empty() || falling.empty())
-    return subject + ": raising one and lowering none changes the measured channels too little.";
+    return subject + ": raising " + (all.size() == 2 ? "both" : "all of them") +
+           " together changes the measured channels too little.";
   return subject + ": " + join(rising) + " raised with " + join(falling) +
          " lowered leaves the measured channels as they are.";
 }

@@ -111,12 +111,13 @@ Json make_fitted_parameter() {
 }
 
 Json make_signal_error() {
-  return object_of(
-      {{"samples", kCount},
-       {"rms", kNumber},
-       {"relative_rms", described(kNumber, "over the RMS of the measured samples about their mean")},
-       {"measured_peak", kNumber},
-       {"predicted_peak", kNumber}});
+  return object_of({{"samples", kCount},
+                    {"rms", kNumber},
+                    {"relative_rms", described(or_null(kNumber),
+                                               "over the RMS of the measured samples about their mean; null "
+                                               "if they do not vary")},
+                    {"measured_peak", kNumber},
+                    {"predicted_peak", kNumber}});
 }
 
 Json make_fit_signal() {

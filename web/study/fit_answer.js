@@ -52,7 +52,7 @@ export function answerOf(fit) {
   if (!best) return [h("p", { class: "quiet" }, state === "running" ? "No point has been computed yet."
     : "No point has a value.")];
   const sentence = `${state === "running" ? "So far: " : ""}${shortAnswerOf(fit)}.`;
-  const heldBack = signals.flatMap((signal) => (signal.held_back
+  const heldBack = signals.flatMap((signal) => (signal.held_back && signal.held_back.relative_rms !== null
     ? [`${nameOfSignal(signal, signals, measurements)}: what is held back is predicted with an error of `
       + `${number(100 * signal.held_back.relative_rms, 3)} % of the signal.`] : []));
   const unknown = parameters.filter(({ identified }) => identified === false);
@@ -100,7 +100,7 @@ export function errorsCard({ signals, measurement_ids: measurements }) {
   const rows = signals.flatMap((signal) => [["fitted", signal.fitted], ["held back", signal.held_back]]
     .flatMap(([use, error]) => (error && typeof error === "object" ? [h("tr", {},
       h("td", {}, nameOfSignal(signal, signals, measurements)), h("td", {}, use),
-      [error.samples, error.rms, 100 * error.relative_rms, error.measured_peak, error.predicted_peak]
+      [error.samples, error.rms, error.relative_rms === null ? null : 100 * error.relative_rms, error.measured_peak, error.predicted_peak]
         .map((value) => h("td", { class: "number" }, number(value))),
           h("td", {}, unitOf(signal.channel) || "1"))]
       : [])));
