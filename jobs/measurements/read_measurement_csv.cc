@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,13 +36,22 @@ bool split_line(std::string_view line, std::vector<std::string>& cells) {
   return !in_quotes;
 }
 
+/// Number that has no double: zero if it is too small, else infinite.
+double round_out_of_range(std::string_view cell) {
+  const auto exponent = cell.find_first_of("eE");
+  const bool is_small = exponent == std::string_view::npos ? cell.find_first_of("123456789") > cell.find('.')
+                                                           : cell.substr(exponent + 1).starts_with('-');
+  return is_small ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
 /// Number of a cell; empty if it is none. A sign '+' is taken as well.
 std::optional<double> find_number(std::string_view cell) {
   if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
   double number = 0.0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  const bool whole = error == std::errc{} && end == cell.data() + cell.size();
-  return whole ? std::optional(number) : std::nullopt;
+  if (end != cell.data() + cell.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) return round_out_of_range(cell);
+  return error == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
 /// Fault of a cell that is no finite number.

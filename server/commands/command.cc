@@ -43,7 +43,8 @@ int report(const std::system_error& error) {
 
 int report(const jobs::InvalidRequest& error) {
   for (const jobs::Fault& fault : error.faults())
-    std::cerr << terminal_text(fault.pointer) << ": " << terminal_text(fault.detail) << '\n';
+    std::cerr << (fault.pointer.empty() ? "" : terminal_text(fault.pointer) + ": ")
+              << terminal_text(fault.detail) << '\n';
   return kBadInput;
 }
 

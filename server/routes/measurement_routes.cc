@@ -50,7 +50,9 @@ MeasurementForm form_of(const std::string& content_type) {
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto found = std::ranges::find(kForms, media_type, [](const auto& form) { return form.first; });
   if (found == kForms.end())
-    throw HttpError(415, "a measurement is sent as application/json, text/csv or application/x-npz");
+    throw HttpError(
+        415,
+        "a measurement is sent as application/json, text/csv, application/x-npz or application/octet-stream");
   return found->second;
 }
 
