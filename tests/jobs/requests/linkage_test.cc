@@ -59,6 +59,18 @@ TEST(LinkageLoads, AMomentTwistsABeamUpToItsPlace) {
   EXPECT_NEAR(energy_at(0.5) / energy_at(1.0), 0.5, 0.08);  // up to half an element
 }
 
+/// The cubic spline through 0, 0.1 and 0 m with level ends turns at 0.1 s with 30 m/s^2, also where the
+/// motion is integrated for the sake of a load.
+TEST(MotionTable, HasItsPeakAtAKnot) {
+  const json parameters = json::parse(R"({"linkage": {
+      "bodies": {"b": {"mass_kg": 1}},
+      "joints": {"s": {"kind": "prismatic", "from": "ground", "to": "b", "load_n": {"law": "harmonic",
+        "amplitude_n": 0.001, "frequency_hz": 1}, "drive": {"law": "table", "times_s": [0, 0.1, 0.2],
+        "values_m": [0, 0.1, 0]}}}, "gravity_m_s2": [0, 0, 0]}, "duration_s": 0.4, "run_up_s": 0})");
+  const json job = jobs::run_job(parameters, [](double) { return false; }).job;
+  EXPECT_NEAR(job.at("metrics").at("peak_s_acceleration_m_s2").get<double>(), 30.0, 1e-6);
+}
+
 /// A damper on an angle of a ball joint has no limit at a right angle of the middle one: the run names it,
 /// and a start there is refused.
 TEST(GimbalLock, IsNamedWhereSomethingActsOnTheAngles) {
