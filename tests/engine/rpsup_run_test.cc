@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_rpsup.h"
+#include "validation/flexibility/links.h"
 #include "validation/support/across_rpsup.h"
 #include "validation/support/runs.h"
 
@@ -177,6 +178,25 @@ TEST(Channels, PosesCloseTheLoop) {
   const Eigen::Vector3d journal(at("pose_2_2_x_m"), at("pose_2_2_y_m"), at("pose_2_2_z_m"));
   EXPECT_LT((end - journal).norm(), 0.26e-3);
   EXPECT_NEAR((end - journal).norm(), 1e-3 * std::hypot(at("journal_x_mm"), at("journal_y_mm"), at("journal_z_mm")), 1e-12);
+}
+
+// The journal sits at the end of the cross link's last element, the bearing at that of the coupler's.
+TEST(Channels, PosesOfFlexibleLinksCloseTheLoop) {
+  for (const YokeAxis yoke : {YokeAxis::kGuide, YokeAxis::kAcross}) {
+    RpsupParameters parameters = validation::with_cross(0.1);
+    parameters.yoke_axis = yoke;
+    parameters.coupler = parameters.cross.model = LinkModel::kFlexible;
+    const RunResult run = simulate_rpsup(parameters, {.duration = 0.02}, {});
+    ASSERT_EQ(run.status, RunStatus::kSucceeded) << run.detail;
+    const std::size_t k = column(run, "t_s").size() - 1;
+    const auto end_of = [&](const std::string& link, double length) -> Eigen::Vector3d {
+      const auto at = [&](const char* part) { return column(run, "pose_" + link + part)[k]; };
+      const Eigen::Quaterniond turn(at("_qw"), at("_qx"), at("_qy"), at("_qz"));
+      return Eigen::Vector3d(at("_x_m"), at("_y_m"), at("_z_m")) + turn * Eigen::Vector3d(length, 0.0, 0.0);
+    };
+    const double gap = (end_of("1_3_3", 0.5 / 6.0) - end_of("2_2_3", parameters.cross_length / 6.0)).norm();
+    EXPECT_LT(gap, 0.26e-3);
+  }
 }
 
 // Implicit and explicit method land on the same impacts. The first 0.1 s: the journal drops and bounces on both rings, faces chatter.
