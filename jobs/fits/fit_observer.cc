@@ -207,6 +207,25 @@ double FitObserver::misfit(const std::vector<double>& residuals) const {
   return sum;
 }
 
+double FitObserver::misfit_of_noise() const {
+  // Variances, times the number of samples, of a mean square and of the square of estimate_noise(), relative
+  // to the square of what they estimate. The second was drawn.
+  constexpr double kOfMeanSquare = 2.0;
+  constexpr double kOfEstimate = 5.5;
+  constexpr double kQuantile = 1.645;  // of the normal distribution, at 0.95
+  double variance = 0.0;
+  for (const FitSignal& signal : problem_->signals) {
+    const auto count = static_cast<double>(signal.compared.t.size());
+    if (count == 0.0) continue;
+    const double noise = signal.noise / *signal.measured.sigma;
+    const auto estimated_from = static_cast<double>(signal.noise_samples);
+    const double relative =
+        kOfMeanSquare / count + (signal.noise_samples > 0 ? kOfEstimate / estimated_from : 0.0);
+    variance += std::pow(count * noise * noise, 2) * relative;
+  }
+  return kQuantile * std::sqrt(variance);
+}
+
 std::optional<Prediction> FitObserver::predict(const FitSignal& signal, const FitPoint& point,
                                                const std::vector<std::string>& job_ids) const {
   if (signal.run >= job_ids.size()) return std::nullopt;

@@ -53,6 +53,9 @@ class FitObserver {
   [[nodiscard]] bool is_noise(const std::vector<double>& residuals) const;
   /// Part of the sum of squares beyond that of the noise.
   [[nodiscard]] double misfit(const std::vector<double>& residuals) const;
+  /// Misfit that residuals exceed in one of twenty fits that leave nothing but noise: their mean square
+  /// scatters, and so does the noise that few samples tell.
+  [[nodiscard]] double misfit_of_noise() const;
   /// Deviation of each signal: RMS of its residuals and its noise together, so that a fit is not led by what
   /// is below the noise. 1: no sample of it is compared.
   [[nodiscard]] std::vector<double> calc_deviations(const std::vector<double>& residuals) const;

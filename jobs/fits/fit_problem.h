@@ -47,6 +47,7 @@ struct FitSignal {
   MeasuredSignal compared;  ///< the fitted samples, thinned
   SensorModel sensor;       ///< without what the fit finds
   double noise = 0.0;       ///< standard deviation, in the unit of the channel
+  std::size_t noise_samples = 0;  ///< the noise is estimated from; 0: it is given, or unknown
   double weight = 1.0;      ///< of its residuals; measured.sigma holds it, too
   double cycle_s = 0.0;     ///< of features: period of the drive, or a part of the samples
 };

@@ -233,8 +233,8 @@ FitSampler::Points FitSampler::run_local() {
 }
 
 void FitSampler::judge_residuals(const std::vector<double>& residuals) {
-  leaves_noise_ = observer_->is_noise(residuals) &&
-                  observer_->misfit(residuals) < kNoiseMisfit * sum_of_squares(residuals);
+  const double allowed = std::max(kNoiseMisfit * sum_of_squares(residuals), observer_->misfit_of_noise());
+  leaves_noise_ = observer_->is_noise(residuals) && observer_->misfit(residuals) < allowed;
 }
 
 /// After the last pass the best point is judged, and the search goes on as long as it leaves more than

@@ -66,8 +66,12 @@ void set_scale(FitSignal& signal, const json& options) {
   for (const double y : fitted) mean += y / count;
   for (const double y : fitted) squares += std::pow(y - mean, 2);
   double sigma = fitted.empty() ? 1.0 : std::sqrt(squares / count);
-  if (options.contains("noise")) signal.noise = sigma = options.at("noise").get<double>();
-  else if (fitted.size() > kFewestForNoise) signal.noise = estimate_noise(fitted);
+  if (options.contains("noise")) {
+    signal.noise = sigma = options.at("noise").get<double>();
+  } else if (fitted.size() > kFewestForNoise) {
+    signal.noise = estimate_noise(fitted);
+    signal.noise_samples = fitted.size();
+  }
   signal.weight = options.value("weight", 1.0);
   signal.measured.sigma = sigma / signal.weight;
 }
