@@ -52,6 +52,11 @@ void Batch::set_refused(int generation) {
   }
 }
 
+bool Batch::has_refused() const {
+  return std::ranges::any_of(
+      tasks_, [](const auto& task) { return task.second.refused && !task.second.wanted.empty(); });
+}
+
 void Batch::clear_refused(const std::map<TaskName, TaskReport>& reports) {
   std::set<int> known;
   for (const auto& [name, report] : reports) known.insert(name.generation);
@@ -99,8 +104,10 @@ std::map<TaskName, TaskReport> Batch::reports_of(const Reports& all) const {
   for (int generation = 0; generation < generations_; ++generation) {
     const auto found = all.find(array_name(generation));
     if (found == all.end()) continue;
-    for (const auto& [index, report] : found->second) reports.emplace(TaskName{.generation = generation,
-                                                                               .index = index}, report);
+    for (const auto& [index, report] : found->second) {
+      TaskReport& own = reports[{.generation = generation, .index = index}] = report;
+      own.has_log = report.phase != Phase::kFailed || std::filesystem::exists(folder_.log(generation, index));
+    }
   }
   return reports;
 }

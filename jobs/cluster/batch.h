@@ -40,6 +40,8 @@ class Batch {
   int add_generation(const std::vector<TaskPlan>& tasks, const std::string& script);
   /// Marks the tasks of a generation as refused by sbatch.
   void set_refused(int generation);
+  /// @returns whether jobs wait for tasks that sbatch refused
+  [[nodiscard]] bool has_refused() const;
   /// Clears the mark of generations that Slurm knows, whatever sbatch said.
   void clear_refused(const std::map<TaskName, TaskReport>& reports);
 

@@ -14,6 +14,7 @@
 #include "jobs/cluster/shared_folder.h"
 #include "jobs/cluster/slurm.h"
 #include "jobs/requests/parameters.h"
+#include "jobs/store/store_lock.h"
 #include "jobs/trajectories/trajectory_codec.h"
 
 namespace jobs::cluster {
@@ -78,10 +79,12 @@ class Check {
   bool write_into_folder() {
     try {
       program_ = share_program(site_);
+      const StoreLock lock(batch_.folder().path);  // as the service does
       write_batch();
     } catch (const std::exception& error) {
       return fault(error.what(),
-                   "--slurm-folder must be a folder in which this user may write, with some 50 MB of room.");
+                   "--slurm-folder must be a folder in which this user may write and lock files, with some "
+                   "50 MB of room.");
     }
     good("the shared folder can be written; the program for nodes is " + program_.string());
     return true;

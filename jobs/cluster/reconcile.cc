@@ -13,7 +13,10 @@ Loss loss_of(const TaskState& task, const TaskReport* report) {
   if (report == nullptr) return task.refused ? Loss::kRefused : Loss::kInterrupted;
   switch (report->phase) {
     case Phase::kCompleted:
-    case Phase::kFailed: return Loss::kOwnFault;
+      return Loss::kOwnFault;
+    // A node that cannot write into the folder fails any task.
+    case Phase::kFailed:
+      return report->has_log ? Loss::kOwnFault : Loss::kInterrupted;
     case Phase::kTimeout: return Loss::kTooSlow;
     case Phase::kOutOfMemory: return Loss::kTooLarge;
     default: return Loss::kInterrupted;
@@ -67,17 +70,29 @@ void replace_large(TaskPlan plan, const TaskName& name, const TaskReport* report
   decision.submit.push_back(std::move(plan));
 }
 
+/// Refusals may pass, as that of too many tasks. One of more memory or time than the site gives does not.
+void replace_refused(TaskPlan plan, const TaskName& name, Decision& decision) {
+  const bool wants_more = plan.memory_factor > 1 || plan.time_factor > 1;
+  if (wants_more && ++plan.tries >= kMostTries) {
+    return fail_all(plan, name, "task_failed",
+                    "no task could compute this job: sbatch refuses one with " +
+                        std::to_string(plan.memory_factor) + " times the memory and " +
+                        std::to_string(plan.time_factor) + " times the time",
+                    decision);
+  }
+  decision.refused = true;
+  decision.submit.push_back(std::move(plan));
+}
+
 /// Gives the jobs of a lost task to new ones.
 void replace(const TaskName& name, const TaskState& task, const TaskReport* report, Decision& decision) {
   TaskPlan plan = task.plan;
   plan.indices = task.wanted;
   const Loss loss = loss_of(task, report);
-  if (loss == Loss::kRefused) {
-    decision.refused = true;
-    return decision.submit.push_back(std::move(plan));
-  }
+  if (loss == Loss::kRefused) return replace_refused(std::move(plan), name, decision);
   const bool got_on = task.wanted.size() < task.plan.indices.size();
-  plan.tries = got_on ? 1 : plan.tries + 1;
+  // The limit of a job ends one that never gets done: time is doubled as often as needed until then.
+  plan.tries = got_on || loss == Loss::kTooSlow ? 1 : plan.tries + 1;
   if (plan.tries >= kMostTries && loss != Loss::kOwnFault) {
     return fail_all(plan, name, "task_lost",
                     "its tasks were lost " + std::to_string(plan.tries) + " times; " + how_it_ended(report),

@@ -47,12 +47,15 @@ struct Decision {
 /// know, gets some time for files that show late; then its jobs are lost and are given to new tasks:
 ///
 ///   it was cancelled, preempted, its node failed, or is not there   the same again
+///   it failed without a log, since its node is broken               the same again
 ///   it failed, or completed without all results                     the same again; the second time each job
 ///                                                                   alone; then that job has failed
 ///   it took too long                                                halves; a job alone gets twice the time
 ///   it took too much memory                                         once with twice as much; then as failed
+///   sbatch refused it                                               the same again; five times, if it is of
+///                                                                   more memory or time: then it has failed
 ///
-/// Five losses in a row without a new result, and its jobs have failed.
+/// Five losses in a row without a new result, but for those by time, and its jobs have failed.
 class Reconciler {
  public:
   explicit Reconciler(Clock::duration grace) : grace_(grace) {}

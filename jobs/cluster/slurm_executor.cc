@@ -179,8 +179,9 @@ bool SlurmExecutor::take_results_of(Live& live) {
 }
 
 bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
+  const std::string bytes = read_whole(file);  // where the folder cannot be read, it is read again later
   try {
-    const ResultFile results = decode_results(read_whole(file));
+    const ResultFile results = decode_results(bytes);
     if (results.batch != live.batch.row().id) throw FileError("it is of another batch, " + results.batch);
     std::vector<BatchRecord> records;
     for (const BatchResult& result : results.results) {
@@ -290,6 +291,8 @@ void SlurmExecutor::submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_
 /// it all the same: only a look at its queue tells, after some time.
 void SlurmExecutor::submit_generation(Live& live, const std::vector<TaskPlan>& tasks, Clock::time_point now) {
   prepare(live);
+  // Sites remove files of a shared folder that nobody has used for weeks.
+  if (!std::filesystem::exists(program_)) program_ = share_program(site_);
   const int generation = live.batch.generations();
   const std::string arguments = "run-task " + shell_quoted(live.batch.folder().path.string()) + " " +
                                 std::to_string(generation);
@@ -336,7 +339,7 @@ void SlurmExecutor::take_jobs(Clock::time_point now) {
   for (int free_tasks = most - open_tasks(); free_tasks > 0 && 4 * free_tasks >= most;
        free_tasks = most - open_tasks()) {
     const bool refused =
-        std::ranges::any_of(live_, [](const auto& live) { return live->batch.refusals > 0; });
+        std::ranges::any_of(live_, [](const auto& live) { return live->batch.has_refused(); });
     if (refused || !take_batch(std::max(1, free_tasks / 2), now)) return;
   }
 }

@@ -32,6 +32,7 @@ struct TaskReport {
   int cpus = 0;
   std::string node;       ///< empty while it waits
   std::string reason;     ///< cause of its wait or of its end, in Slurm's words; "None" if there is none
+  bool has_log = true;    ///< false: it has failed, and its node has written none
 
   /// Held because Slurm could not start it, again and again: it would wait forever.
   [[nodiscard]] bool is_held_by_failure() const;

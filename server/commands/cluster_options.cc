@@ -50,7 +50,8 @@ void add_cluster_options(CLI::App& command, ClusterOptions& options) {
       ->type_name("OPTION")
       ->envname("RPSUP_SLURM_OPTION");
   add_text("--slurm-prologue", options.prologue,
-           "Shell command that each task runs first, as 'module load gcc'", "RPSUP_SLURM_PROLOGUE", "TEXT");
+           "Command that each task runs first in a login shell of bash, as 'module load gcc'",
+           "RPSUP_SLURM_PROLOGUE", "TEXT");
   add_text("--slurm-prefix", options.prefix, "Prefix of each Slurm command, as 'ssh login --'",
            "RPSUP_SLURM_PREFIX", "TEXT");
   add_text("--slurm-program", options.program, "Program that nodes run, if not this one",
@@ -92,6 +93,13 @@ jobs::cluster::Site make_site(const ClusterOptions& options) {
   site.account = options.account;
   site.qos = options.qos;
   site.constraint = options.constraint;
+  for (const std::string& option : options.options) {
+    if (!option.starts_with('-')) {
+      throw BadInput("--slurm-option " + option +
+                     ": is no option of sbatch; one with a comma stands in quotes "
+                     "in a configuration file");
+    }
+  }
   site.options = options.options;
   site.prologue = options.prologue;
   site.threads = options.threads;

@@ -40,6 +40,13 @@ TaskReport ended(Phase phase, const std::string& word) {
   return {.phase = phase, .word = word, .array_job = "7", .cpus = 1, .node = "n1", .reason = "None"};
 }
 
+/// Its node could not even write a log into the folder.
+TaskReport failed_without_log() {
+  TaskReport report = ended(Phase::kFailed, "FAILED");
+  report.has_log = false;
+  return report;
+}
+
 /// Decision about a task that stays as it is beyond the time for late files.
 Decision after_grace(const TaskState& task, const Reports& reports) {
   Reconciler reconciler(kGrace);
@@ -72,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(LossCase{"Absent", {}},
                     LossCase{"Cancelled", {{kFirst, ended(Phase::kCancelled, "CANCELLED")}}},
                     LossCase{"NodeFail", {{kFirst, ended(Phase::kNodeFail, "NODE_FAIL")}}},
-                    LossCase{"Preempted", {{kFirst, ended(Phase::kPreempted, "PREEMPTED")}}}),
+                    LossCase{"Preempted", {{kFirst, ended(Phase::kPreempted, "PREEMPTED")}}},
+                    LossCase{"FailedWithoutALog", {{kFirst, failed_without_log()}}}),
     [](const auto& each) { return each.param.name; });
 
 class Alive : public testing::TestWithParam<Phase> {};
@@ -172,6 +180,17 @@ TEST(Reconciler, HalvesWhatTakesTooLongAndGivesASingleJobMoreTime) {
               ElementsAre(TaskPlan{.indices = {2}, .tries = 1, .time_factor = 4}));
 }
 
+TEST(Reconciler, DoublesTheTimeOfASingleJobAsOftenAsNeeded) {
+  const Reports late{{kFirst, ended(Phase::kTimeout, "TIMEOUT")}};
+  TaskPlan plan{.indices = {2}};
+  for (int losses = 0; losses < 10; ++losses) {
+    const Decision decision = after_grace(task_of(plan), late);
+    ASSERT_THAT(decision.submit, SizeIs(1));
+    EXPECT_EQ(decision.submit[0].time_factor, 2 * plan.time_factor);
+    plan = decision.submit[0];
+  }
+}
+
 TEST(Reconciler, GivesMoreMemoryOnceAndThenTakesItForAFailure) {
   const Reports large{{kFirst, ended(Phase::kOutOfMemory, "OUT_OF_MEMORY")}};
   EXPECT_THAT(after_grace(task_of({.indices = batch_indices(2)}), large).submit,
@@ -194,6 +213,28 @@ TEST(Reconciler, SubmitsWhatWasRefusedAgainWithoutCountingIt) {
   const Decision decision = after_grace(task, {});
   EXPECT_TRUE(decision.refused);
   EXPECT_THAT(decision.submit, ElementsAre(TaskPlan{.indices = batch_indices(2), .tries = 4}));
+}
+
+TEST(Reconciler, FailsWhatIsRefusedForItsMemoryOrTime) {
+  for (TaskPlan plan :
+       {TaskPlan{.indices = {0, 1}, .memory_factor = 2}, TaskPlan{.indices = {0}, .time_factor = 8}}) {
+    Decision decision;
+    for (int refusals = 1; refusals < jobs::cluster::kMostTries; ++refusals) {
+      TaskState task = task_of(plan);
+      task.refused = true;
+      decision = after_grace(task, {});
+      ASSERT_THAT(decision.submit, SizeIs(1)) << refusals;
+      plan = decision.submit[0];
+    }
+    TaskState task = task_of(plan);
+    task.refused = true;
+    decision = after_grace(task, {});
+    EXPECT_THAT(decision.submit, IsEmpty());
+    EXPECT_FALSE(decision.refused) << "other sweeps get their turn";
+    ASSERT_EQ(decision.fail.size(), plan.indices.size());
+    EXPECT_EQ(decision.fail[0].reason, "task_failed");
+    EXPECT_THAT(decision.fail[0].detail, testing::HasSubstr("sbatch refuses"));
+  }
 }
 
 TEST(Reconciler, ReplacesAtOnceWhatSlurmHoldsBecauseItCannotStartIt) {
