@@ -10,11 +10,11 @@ expect_equal "$(cat outside)" "" "files outside of the prefix"
 cd "$folder"
 (cd 'first' && find . -type f ! -path './bin/*') | sort >files
 cat >expected <<'FILES'
-./etc/rpsup/config.ini
 ./lib/systemd/system/rpsup.service
 ./share/bash-completion/completions/rpsup
 ./share/doc/rpsup/NOTICE
 ./share/doc/rpsup/copyright
+./share/doc/rpsup/examples/config.ini
 ./share/doc/rpsup/examples/paper.json
 ./share/fish/vendor_completions.d/rpsup.fish
 ./share/man/man1/rpsup.1.gz
@@ -33,7 +33,7 @@ cat >expected <<'FILES'
 ./share/zsh/site-functions/_rpsup
 FILES
 diff expected files || fail "the files are others"
-expect_text 'first/lib/systemd/system/rpsup.service' "^ExecStart=$folder/first/bin/rpsup serve --config $folder/first/etc/rpsup/config.ini$"
+expect_text 'first/lib/systemd/system/rpsup.service' "^ExecStart=$folder/first/bin/rpsup serve --config /etc/rpsup/config.ini$"
 mv 'first' second
 expect_equal "$(second/bin/rpsup --version)" "$("$rpsup" --version)" "version"
 ! readelf --dynamic second/bin/* | grep -E 'RPATH|RUNPATH' || fail "a program looks for libraries in the folder in which it was built"

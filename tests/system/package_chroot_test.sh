@@ -59,6 +59,7 @@ expect_text "$system/etc/rpsup/config.ini" '^port=0$'
 inside dpkg --remove rpsup >>apt.log 2>&1
 [ ! -e "$system/usr/bin/rpsup" ] || fail "the program is still there"
 expect_text "$system/etc/rpsup/config.ini" '^port=0$'
+echo "RPSUP_TOKEN=secret" >"$system/etc/rpsup/environment"
 inside dpkg --purge rpsup >>purge.log 2>&1
 expect_text purge.log 'results in /var/lib/rpsup stay'
 [ ! -e "$system/etc/rpsup" ] || fail "the configuration is still there"

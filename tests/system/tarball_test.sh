@@ -15,11 +15,11 @@ tar --extract --file "$package"
 programs=$(cd "$top" && echo bin/*)
 cat >expected <<'FILES'
 README.md
-etc/rpsup/config.ini
 lib/systemd/system/rpsup.service
 share/bash-completion/completions/rpsup
 share/doc/rpsup/NOTICE
 share/doc/rpsup/copyright
+share/doc/rpsup/examples/config.ini
 share/doc/rpsup/examples/paper.json
 share/fish/vendor_completions.d/rpsup.fish
 share/man/man1/rpsup.1.gz
@@ -39,7 +39,7 @@ share/zsh/site-functions/_rpsup
 FILES
 diff expected <(grep -vE '^bin/|^share/doc/rpsup/licenses/' files) || fail "the files are others"
 ! grep -rE '@[A-Z]+@' "$top/README.md" || fail "the README was not filled in"
-expect_text "$top/lib/systemd/system/rpsup.service" '^ExecStart=/opt/rpsup/bin/rpsup serve --config /opt/rpsup/etc/rpsup/config.ini$'
+expect_text "$top/lib/systemd/system/rpsup.service" '^ExecStart=/opt/rpsup/bin/rpsup serve --config /etc/rpsup/config.ini$'
 
 # Programs need the C library alone, of the version that the report and the README name, and that the README of the sources promises.
 for program in $programs; do
