@@ -1,39 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 # For script/bench and the parts of it. Sourced; expects $root.
+source "$root/script/common.sh"
 
 # Packages that the benchmarks need beside those of script/setup.
 bench_packages=(libbenchmark-dev libsimbody-dev libmujoco-dev)
-
-install_packages() {
-  script/setup
-  local missing=() package
-  for package in "${bench_packages[@]}"; do
-    [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || missing+=("$package")
-  done
-  [ ${#missing[@]} -gt 0 ] || return 0
-  local as_root=()
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { echo "script/bench: as root, run: apt-get install ${missing[*]}" >&2; exit 1; }
-    as_root=(sudo)
-  fi
-  echo "bench: installing ${missing[*]}"
-  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get --quiet=2)
-  "${apt[@]}" update
-  "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
-}
 
 # build_benches TREE TARGET...: in TREE/build/bench, with the flags of the release preset
 build_benches() {
   local tree=$1
   shift
   echo "bench: building $*"
-  # A file that uses Eigen takes up to 1.5 GB to compile: no more at a time than there is memory for.
-  local cores by_memory
-  cores=$(nproc)
-  by_memory=$(($(awk '$1 == "MemAvailable:" {print $2}' /proc/meminfo) / 1500000))
-  [ "$by_memory" -ge 1 ] || by_memory=1
   (cd "$tree" && cmake --preset release -B build/bench -DRPSUP_BENCH=ON --log-level=WARNING >/dev/null)
-  cmake --build "$tree/build/bench" --target "$@" --parallel $((by_memory < cores ? by_memory : cores)) >"$tree/build/bench/build.log" ||
+  cmake --build "$tree/build/bench" --target "$@" --parallel "$(parallel_jobs)" >"$tree/build/bench/build.log" ||
     { tail -n 40 "$tree/build/bench/build.log" >&2; echo "script/bench: the build failed" >&2; exit 1; }
 }
 
