@@ -12,8 +12,8 @@ namespace engine {
 namespace {
 
 constexpr int kAngles = 720;
-// 72 degrees beside the offset a gap is more than three times as long as across.
-constexpr int kFarthest = kAngles / 5;
+// 89 degrees beside the offset, a gap is 57 times as long as across.
+constexpr int kFarthest = kAngles / 4 - 2;
 
 /// Least value of the parabola through three neighbouring values, the middle one the least of them.
 double find_least(double before, double middle, double after) {

@@ -71,15 +71,18 @@ TEST(WornBore, HasTheLocusOfABoreAboutAnotherCentre) {
   }
 }
 
-// A groove that is narrower than the journal: it lies on the two edges, at 5 degrees on either side.
-TEST(WornBore, DoesNotLetAJournalIntoANarrowGroove) {
-  const WornBore bore(kWornClearance, make_depth(360, [](double phi) { return std::abs(phi - 1.0) < 5.0 * pi / 180.0 ? 100e-6 : 0.0; }));
-  const auto lies_on = [](double degrees) { return kWornClearance / std::cos(degrees * pi / 180.0) - kWornClearance; };  // about a micrometre
-  EXPECT_GT(bore.calc_depth(0, 1.0), 99e-6);
-  // The edges lie in sectors of a degree, and the spline rounds them.
-  EXPECT_GT(bore.calc_added_clearance(0, 1.0).value, lies_on(5.0));
-  EXPECT_LT(bore.calc_added_clearance(0, 1.0).value, lies_on(7.0));
-  EXPECT_NEAR(bore.calc_added_clearance(0, 1.5).value, 0.0, 1e-12);
+// A groove that a journal cannot reach the ground of: it lies on the two edges, as far on either side as the groove is wide.
+TEST(WornBore, LetsAJournalLieOnTheEdgesOfAGroove) {
+  const auto lies_on = [](double degrees) { return kWornClearance / std::cos(degrees * pi / 180.0) - kWornClearance; };
+  for (const double degrees : {5.0, 40.0, 75.0, 82.0}) {
+    const double depth = 20.0 * kWornClearance;
+    const WornBore bore(kWornClearance, make_depth(360, [&](double phi) { return std::abs(phi - pi) < degrees * pi / 180.0 ? depth : 0.0; }));
+    EXPECT_GT(bore.calc_depth(0, pi), 0.99 * depth);
+    // The edges lie in sectors of a degree, and the spline rounds them.
+    EXPECT_GT(bore.calc_added_clearance(0, pi).value, lies_on(degrees)) << degrees;
+    EXPECT_LT(bore.calc_added_clearance(0, pi).value, lies_on(degrees + 2.0)) << degrees;
+    EXPECT_NEAR(bore.calc_added_clearance(0, 0.0).value, 0.0, 1e-12) << degrees;
+  }
 }
 
 ClearanceParameters make_joint(double r_b, double c_r) {
