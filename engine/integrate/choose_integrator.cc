@@ -65,6 +65,12 @@ bool has_clearance(const Mechanism& mechanism) {
   return has_any(mechanism, [](const ClearanceParameters&) { return true; });
 }
 
+bool has_joint_friction(const Mechanism& mechanism) {
+  return std::ranges::any_of(mechanism.actuations, [](const Actuation& actuation) {
+    return std::holds_alternative<JointFriction>(actuation.element);
+  });
+}
+
 bool is_rigid(const Mechanism& mechanism) {
   constexpr auto is_damped = [](const auto& spring) { return spring.damping > 0.0; };
   constexpr auto has_drag = [](const PointSpring& spring) { return spring.drag > 0.0; };
@@ -116,7 +122,8 @@ double choose_stability_check_interval(const Mechanism& mechanism, Integrator in
   // ones find nothing that changes a peak: bursts of vibrations last about 10 ms.
   constexpr double kPerCoordinate = 1e-3;  // [s]
   constexpr double kFewest = 14.0, kDenseUpTo = 28.0;
-  if (!has_any(mechanism, has_friction) || !is_implicit(integrator) || free_coordinates == 0)
+  const bool has_any_friction = has_joint_friction(mechanism) || has_any(mechanism, has_friction);
+  if (!has_any_friction || !is_implicit(integrator) || free_coordinates == 0)
     return std::numeric_limits<double>::infinity();
   const auto n = std::max(kFewest, static_cast<double>(free_coordinates));
   return kPerCoordinate * n * std::max(1.0, n / kDenseUpTo);

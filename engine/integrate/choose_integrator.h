@@ -12,6 +12,9 @@ namespace engine {
 /// @returns whether any joint of the mechanism has clearance
 [[nodiscard]] bool has_clearance(const Mechanism& mechanism);
 
+/// @returns whether dry friction acts in any joint without clearance
+[[nodiscard]] bool has_joint_friction(const Mechanism& mechanism);
+
 /// @returns whether joints are ideal and there are no springs and dampers: nothing that would be stiff
 [[nodiscard]] bool is_rigid(const Mechanism& mechanism);
 

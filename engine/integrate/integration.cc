@@ -62,9 +62,7 @@ Integration::Integration(const Mechanism& mechanism, const RunOptions& options, 
       samples_(options.output_rate, options.duration),
       sliver_(sliver_of(options_)),
       pace_check_(options.duration, options.step_limit),
-      unstable_mode_limiter_(
-          choose_stability_check_interval(mechanism, options_.integrator, system_.free_count()),
-          choose_longest_step(mechanism, options_.integrator), system_.free_count()) {}
+      unstable_mode_limiter_(mechanism, options_.integrator, system_.free_count()) {}
 
 RunOutcome Integration::run(const Evaluation& assembled) {
   const bool fixed = options_.integrator == Integrator::kRk4;
@@ -342,16 +340,15 @@ bool Integration::accept_or_shrink(const Trial& trial, double dt) {
 /// that ends there.
 /// @returns false if the shorter step failed; the next try is shorter still
 bool Integration::land_on_event(double dt) {
-  for (int landing = 0; landing < kMaxLandings; ++landing) {
+  for (int landing = 0;; ++landing) {
     rings_end_.clear();
     system_.add_penetrations(end_.at, rings_end_);
     const std::optional<double> until = ContactEvents::find_first(rings_start_, rings_end_, dt);
-    if (!until || *until < shortest_step(start_.t)) return true;
+    if (!until || *until < shortest_step(start_.t) || landing == kMaxLandings) return true;
     const Trial trial = try_step(*until);
     if (!accept_or_shrink(trial, *until)) return false;
     dt = *until;
   }
-  return true;
 }
 
 void Integration::accept() {

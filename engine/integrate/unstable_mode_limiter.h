@@ -4,24 +4,22 @@
 #include "engine/dynamics/motion_system.h"
 #include "engine/integrate/stepper.h"
 #include "engine/integrate/unstable_modes.h"
+#include "engine/model/mechanism.h"
+#include "engine/model/run_options.h"
 
 namespace engine {
 
 /// Limits the steps of an implicit method to those that resolve the unstable modes of the motion.
 ///
-/// A step that resolves a growing vibration lets its own errors grow, too, and they are larger than the
-/// vibration's beginnings. So a step is limited only once the vibration may have grown above the errors: its
-/// estimated log-growth, the sum of growth times time over the checks, must exceed kLogGrowthBeforeLimiting.
+/// With clearance, impacts begin a vibration again and again. A step that resolves it lets its own errors
+/// grow, too, and they are larger than the vibration's beginnings. So a step is limited only once the
+/// vibration may have grown above the errors: its estimated log-growth, the sum of growth times time over the
+/// checks, must exceed kLogGrowthBeforeLimiting. Without clearance nothing begins a vibration again that
+/// longer steps have damped: steps are limited at once.
 class UnstableModeLimiter {
  public:
-  /// @param check_interval  time between two checks, [s]; infinite: no check
-  /// @param longest_step    [s]
-  /// @param free_count      free coordinates of the system
-  UnstableModeLimiter(double check_interval, double longest_step, Eigen::Index free_count)
-      : check_interval_(check_interval),
-        longest_step_(longest_step),
-        max_step_(longest_step),
-        modes_(free_count) {}
+  /// @param free_count  free coordinates of the system
+  UnstableModeLimiter(const Mechanism& mechanism, Integrator integrator, Eigen::Index free_count);
 
   /// Longest step that the last check allows, [s].
   [[nodiscard]] double max_step() const { return max_step_; }
@@ -36,10 +34,11 @@ class UnstableModeLimiter {
   static constexpr double kMaxPhase =
       1.5;  ///< of a mode in a step, [rad]: radau5 takes a thousandth of its amplitude then
 
-  double check_interval_;      ///< [s]
+  const bool has_clearance_, has_joint_friction_;
+  double check_interval_;      ///< [s]; infinite: no check
   double longest_step_;        ///< [s]
   double max_step_;            ///< [s]
-  double last_check_ = 0.0;    ///< [s]
+  double last_check_;          ///< [s]; before the start: the start is checked
   double log_growth_ = 0.0;    ///< of the unstable modes, since they became unstable
   UnstableModes modes_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,26 @@ TEST(JointFriction, SticksAndSlipsAsPublished) {
   EXPECT_GT(std::count_if(v.begin(), v.end(), [](double each) { return std::abs(each) < 1e-4; }), 1000);  // it sticks for most of the time
   options.integrator = Integrator::kRadau5;
   EXPECT_NEAR(LinkageRun(linkage, options).last("block_m"), 1.9088391992, 1e-6);
+}
+
+// 1 kg on a belt that moves at 0.1 m/s, held by a spring. Friction falls with the velocity, so that rest is unstable: the vibration grows until
+// the block sticks for a part of each period. Its range of velocities is then somewhat more than twice that of the belt, at any stiffness.
+TEST(JointFriction, ExcitesVibrationsHoweverFastTheyAre) {
+  const FrictionParameters law{.mu_s = 0.4, .mu_k = 0.2, .sigma_0 = 1e5, .sigma_1 = 1.0, .sigma_2 = 0.0, .v_s = 0.1};
+  for (const double hz : {100.0, 300.0, 600.0}) {
+    const double stiffness = std::pow(2.0 * std::numbers::pi * hz, 2);
+    Linkage linkage;
+    linkage.bodies = {make_body("belt", 1.0, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3}), make_body("block", 1.0, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3})};
+    linkage.joints = {{.name = "belt", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "belt", .placement = {}, .axes = {Axis::kX, Axis::kY},
+                       .freedoms = {{.name = "belt", .drive = Polynomial{{0.0, 0.1}}}}},
+                      {.name = "block", .kind = JointKind::kPrismatic, .from = "belt", .to = "block", .placement = {}, .axes = {Axis::kX, Axis::kY},
+                       .freedoms = {{.name = "block", .start = 0.0, .start_rate = -0.1, .friction = JointFriction{law, 10.0}}}}};
+    linkage.springs = {{.name = "stay", .from = kGroundName, .to = "block", .at = {-1.0, 0.0, 0.0}, .stiffness = stiffness, .free_length = 1.0}};
+    const LinkageRun run(linkage, {.duration = 3.0, .output_rate = 1e4});
+    const std::vector<double>& v = run.column("block_m_s");
+    const auto [least, most] = std::minmax_element(v.end() - 1000, v.end());
+    EXPECT_NEAR(*most - *least, 0.215, 0.015) << hz;
+  }
 }
 
 // A pin of radius r turns against r mu N: a flywheel runs out in a time that the torque tells.
