@@ -398,9 +398,17 @@ class KinematicRun {
     }
   }
 
+  void report_middle(const Evaluation& from, const Evaluation& to) {
+    ++outcome_.evaluations;
+    if (!solve(0.5 * (from.t + to.t), from, to, sample_)) return;
+    set_work(sample_);
+    observer_.on_middle(sample_);
+  }
+
   void accept(const Evaluation& from, const Evaluation& to, bool far) {
     ++outcome_.steps;
     observer_.on_step(from, to);
+    if (far && observer_.wants_middle()) report_middle(from, to);
     take_samples(from, to, far);
   }
 

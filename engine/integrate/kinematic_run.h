@@ -26,7 +26,8 @@ namespace engine {
 /// interpolant (Boole's rule at the block's end).
 ///
 /// A step is split where an interpolant has an extremum: of the acceleration of an unknown coordinate, of a
-/// drive's force, of a reaction's magnitude. Far from change points, extrema of forces and reactions are
+/// drive's force, of the magnitude of a reaction that closes a loop. Other loads are evaluated in the middle
+/// of a step that may hide a larger value. Far from change points, extrema of forces and reactions are
 /// ends of steps. The extremum of an acceleration lies inside a short step: the quadratic by which observers
 /// read steps finds the extremum and its instant.
 ///

@@ -140,6 +140,18 @@ TEST(IdealPeak, MissesNoExtremeOfAnyLinkage) {
   }
 }
 
+// The window ends where the rod's pause does: the rise that begins there, with a jump of the acceleration, is outside of it.
+TEST(IdealPeak, EndsBeforeAJumpAtTheEndOfItsWindow) {
+  RpsupParameters p;
+  p.c_r = 0.0;
+  p.rod_law = StrokeLaw::kCosine;
+  p.crank_velocity = 0.1;
+  p.run_up = 2.0 * p.rod_stroke_time + 0.1 * p.rod_pause;
+  const double end = 2.0 * p.rod_stroke_time + p.rod_pause;
+  const RunResult run = run_rpsup(p, {.duration = end, .output_rate = 1000.0});
+  EXPECT_NEAR(metric(run, "amplification"), 1.0, 1e-6);
+}
+
 TEST(IdealPeak, StandsTheEdgesOfItsWindow) {
   const RpsupParameters p;
   EXPECT_FALSE(find_ideal_peak(p, 2.0, 2.0, {}));
