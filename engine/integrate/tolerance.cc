@@ -47,9 +47,13 @@ double calc_gyration_radius(const Mechanism& mechanism, FrameIndex rotation,
 void Tolerance::set_radii(const Mechanism& mechanism, const std::vector<FrameIndex>& free,
                           const std::vector<FrameMotion>& frames) {
   radii_.setOnes(static_cast<Eigen::Index>(free.size()));
-  for (std::size_t k = 0; k < free.size(); ++k)
-    if (mechanism.coordinates[static_cast<std::size_t>(free[k])].motion == Motion::kRotation)
-      radii_[static_cast<Eigen::Index>(k)] = calc_gyration_radius(mechanism, free[k], frames);
+  is_joint_ = radii_;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const Coordinate& coordinate = mechanism.coordinates[static_cast<std::size_t>(free[k])];
+    const auto i = static_cast<Eigen::Index>(k);
+    if (coordinate.motion == Motion::kRotation) radii_[i] = calc_gyration_radius(mechanism, free[k], frames);
+    if (coordinate.role != CoordinateRole::kJoint) is_joint_[i] = 0.0;
+  }
 }
 
 double Tolerance::follow_speed(double speed) {
@@ -61,7 +65,7 @@ double Tolerance::follow_speed(double speed) {
 double Tolerance::calc_speed(const Eigen::Ref<const Eigen::VectorXd>& rates) const {
   double largest = 0.0;
   for (Eigen::Index k = 0; k < rates.size(); ++k)
-    largest = std::max(largest, std::abs(rates[k]) * (radii_.size() > 0 ? radii_[k] : 1.0));
+    largest = std::max(largest, std::abs(rates[k]) * (radii_.size() > 0 ? is_joint_[k] * radii_[k] : 1.0));
   return largest;
 }
 

@@ -16,7 +16,8 @@ namespace engine {
 
 /// Weighted root-mean-square norm of local errors (SUNDIALS: WRMS). With radii set, errors of coordinates and
 /// rates are measured in metres and metres per second: a rotation's by the radius of gyration, about its
-/// axis, of the bodies that it carries. Without radii the spin of a thin link about itself, which moves
+/// axis, of the bodies that it carries. Charges and memories, which are no lengths, are measured as they are,
+/// a charge by the root of the inductance. Without radii the spin of a thin link about itself, which moves
 /// nothing else, would ask for the shortest steps.
 class Tolerance {
  public:
@@ -32,7 +33,7 @@ class Tolerance {
   /// kOrdinarySpeed.
   /// @param speed  the largest so far, [m/s]  @returns the factor
   double follow_speed(double speed);
-  /// Largest speed among the free coordinates, [m/s]; without radii, rotations count in [rad/s].
+  /// Largest speed among the joint coordinates, [m/s]; without radii, rotations count in [rad/s].
   /// @param rates  one a free coordinate
   [[nodiscard]] double calc_speed(const Eigen::Ref<const Eigen::VectorXd>& rates) const;
 
@@ -53,6 +54,7 @@ class Tolerance {
   double relative_, absolute_;
   double requested_absolute_ = absolute_;
   Eigen::VectorXd radii_;  ///< one a free coordinate, [m]; 1 for those that slide
+  Eigen::VectorXd is_joint_;  ///< 1 for coordinates of joints, 0 for charges and memories
 };
 
 }  // namespace engine

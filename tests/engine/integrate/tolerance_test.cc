@@ -35,6 +35,22 @@ TEST(Tolerance, MeasuresARotationAtTheRadiusOfGyrationOfWhatItCarries) {
   EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_weights()), 5.0, 1e-12);
 }
 
+// The current of a winding and the integral of a controller are no velocities.
+TEST(Tolerance, TakesNoSpeedFromACoordinateOfNoJoint) {
+  Mechanism rod = make_rod();
+  rod.coordinates.push_back({.name = "charge", .role = CoordinateRole::kCharge, .placement = {}, .axis = Axis::kZ, .mass = 1.0,
+                             .inertia = 1e-3 * Eigen::Matrix3d::Identity()});
+  MotionSystem system(rod);
+  Evaluation at = system.make_evaluation();
+  Eigen::VectorXd y = system.make_state(at.q, at.qd);
+  Eigen::VectorXd f(y.size());
+  ASSERT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
+  Tolerance tolerance(1e-3, 1e-6);
+  tolerance.set_radii(rod, system.free_coordinates(), at.frames);
+  EXPECT_NEAR(tolerance.calc_speed(Eigen::Vector2d(2.0, 0.0)), 2.0 * 0.5, 1e-12);
+  EXPECT_EQ(tolerance.calc_speed(Eigen::Vector2d(0.0, 5.0)), 0.0);
+}
+
 TEST(Tolerance, AllowsCoordinatesNoMoreWhereThereAreMoreContactElements) {
   RpsupParameters parameters;
   const auto measure = [](MotionSystem& system, const Eigen::VectorXd& y) {
