@@ -53,7 +53,7 @@ struct JointLoad {
 };
 
 template <typename V>
-struct NormalLaw {
+struct NormalForce {
   V total;                           ///< f_n, [N], >= 0
   V loss_power;                      ///< power that the contact takes from the motion for good, [W]
 };
@@ -90,8 +90,8 @@ template <int count>
 /// 0.9132.
 /// @param damping  Kelvin and Voigt's of this contact, [N s/m]
 template <typename P, typename V>
-[[nodiscard]] RPSUP_INLINE NormalLaw<V> calc_normal_law(const P& elastic, const V& rate, const V& onset_rate,
-                                                        double chi, double damping) {
+[[nodiscard]] RPSUP_INLINE NormalForce<V> calc_normal_force(const P& elastic, const V& rate,
+                                                            const V& onset_rate, double chi, double damping) {
   V total = elastic * (1.0 + chi * rate / onset_rate);
   if (damping > 0.0) total += damping * rate;
   const V cut = cut_at_zero(total);
@@ -104,7 +104,7 @@ template <typename P, typename V>
 struct ContactPoint {
   Vec3<P> r;
   P n_x, n_y;
-  NormalLaw<V> normal;
+  NormalForce<V> normal;
 };
 
 /// Adds normal force and friction of a contact point to the load. The bristle has two components, along t =

@@ -35,7 +35,9 @@ struct RingOnRoundBore {
     return calc_ring_rate(journal, ring);
   }
   template <typename V>
-  [[nodiscard]] RPSUP_INLINE const NormalLaw<V>& press(const NormalLaw<V>& normal) const { return normal; }
+  [[nodiscard]] RPSUP_INLINE const NormalForce<V>& press(const NormalForce<V>& normal) const {
+    return normal;
+  }
 };
 
 template <typename P, typename V>
@@ -65,7 +67,7 @@ struct RingOnWornBore {
     return gradient * calc_ring_rate(journal, ring);
   }
   template <typename V>
-  [[nodiscard]] RPSUP_INLINE NormalLaw<V> press(const NormalLaw<V>& normal) const {
+  [[nodiscard]] RPSUP_INLINE NormalForce<V> press(const NormalForce<V>& normal) const {
     return {gradient * normal.total, normal.loss_power};
   }
 };
@@ -106,8 +108,8 @@ RPSUP_INLINE void add_ring(const RadialContinuum& contact, const RelativeMotion<
   const V rate = on_bore.calc_rate(journal);
   const RingForce<P> force = calc_ring_force(contact, delta);
   const V onset = choose_onset_rate(contact.latches()[i].rate(), rate, joint.minimum_onset_rate);
-  const NormalLaw<V> normal =
-      on_bore.press(calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
+  const NormalForce<V> normal =
+      on_bore.press(calc_normal_force(force.elastic, rate, onset, joint.chi, contact.ring_damping()));
   const double r_j = joint.r_j();
   const Vec3<P> r{ring.axial.x + r_j * ring.n_x, ring.axial.y + r_j * ring.n_y, ring.axial.z};
   add_contact_point(joint, journal, ContactPoint<P, V>{r, ring.n_x, ring.n_y, normal}, bristles + 2 * i,

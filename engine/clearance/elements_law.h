@@ -127,7 +127,7 @@ RPSUP_INLINE bool add_element(const RadialElements& elements, const RelativeMoti
   add_contact_point(
       joint, journal,
       ContactPoint<P, V>{element.r, element.n_x, element.n_y,
-                         calc_normal_law(elastic, rate, onset, joint.chi, elements.element_damping())},
+                         calc_normal_force(elastic, rate, onset, joint.chi, elements.element_damping())},
       bristle < 0 ? nullptr : bristles + bristle, bristle < 0 ? nullptr : bristle_rates + bristle, load);
   load.elastic_energy += 0.5 * value_of(elastic) * value_of(element.delta);
   load.max_penetration = std::max(load.max_penetration, value_of(element.delta));
@@ -153,7 +153,7 @@ RPSUP_INLINE void add_neighbours(const RadialElements& elements,
   const LanePairs pairs = LanePairs::load(bristles + bristle);
   const Lanes z[2] = {pairs.first, pairs.second};
   Lanes rates[2] = {none, none};
-  NormalLaw<Lanes> normal = calc_normal_law(elastic, rate, onset, joint.chi, elements.element_damping());
+  NormalForce<Lanes> normal = calc_normal_force(elastic, rate, onset, joint.chi, elements.element_damping());
   if (elements.element_damping() > 0.0)
     normal = {choose_greater(element.delta, none, normal.total, none),
               choose_greater(element.delta, none, normal.loss_power, none)};

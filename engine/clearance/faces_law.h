@@ -55,7 +55,7 @@ template <typename P, typename V>
     const V rate = motion.calc_rate(x, y);
     const P elastic = faces.point_stiffness() * delta;
     const V onset = choose_onset_rate(faces.latches(face)[k].rate(), rate, joint.minimum_onset_rate);
-    const NormalLaw<V> normal = calc_normal_law(elastic, rate, onset, joint.chi, faces.point_damping());
+    const NormalForce<V> normal = calc_normal_force(elastic, rate, onset, joint.chi, faces.point_damping());
     load.force += normal.total;
     load.x_force += x * normal.total;
     load.y_force += y * normal.total;
@@ -79,7 +79,8 @@ template <typename P, typename V>
     const Lanes elastic = faces.point_stiffness() * delta;
     const Lanes onset =
         choose_onset_rate(Lanes::load(faces.latches(face) + k), rate, joint.minimum_onset_rate);
-    const NormalLaw<Lanes> normal = calc_normal_law(elastic, rate, onset, joint.chi, faces.point_damping());
+    const NormalForce<Lanes> normal =
+        calc_normal_force(elastic, rate, onset, joint.chi, faces.point_damping());
     const Lanes force = choose_greater(beyond, Lanes{}, normal.total, Lanes{});
     load.force += sum(force);
     load.x_force += sum(x * force);

@@ -47,15 +47,15 @@ template <typename V>
 
 /// Friction and bristle rate for one component of the sliding velocity.
 template <typename V>
-struct BristleLaw {
+struct BristleResponse {
   /// Of the normal force, sigma_0 z + sigma_1 zd + sigma_2 v with bristles, [1]; it acts against v.
   V force_ratio;
   V rate;                            ///< zd = v - sigma_0 |v| z / g(|v|), [m/s]
 };
 
 template <typename V>
-[[nodiscard]] RPSUP_INLINE BristleLaw<V> calc_bristle_law(const FrictionParameters& p, const V& decay,
-                                                          const V& v, const V& z) {
+[[nodiscard]] RPSUP_INLINE BristleResponse<V> calc_bristle_response(const FrictionParameters& p,
+                                                                    const V& decay, const V& v, const V& z) {
   const V rate = v - decay * z;
   return {p.sigma_0 * z + p.sigma_1 * rate + p.sigma_2 * v, rate};
 }
@@ -63,7 +63,7 @@ template <typename V>
 /// Friction and bristle rates for both components.
 template <typename V>
 struct FrictionForce {
-  BristleLaw<V> along_t, along_z;
+  BristleResponse<V> along_t, along_z;
 };
 
 /// Part of its decay that an elasto-plastic bristle has: none below its break-away and on its way back, all
@@ -106,7 +106,7 @@ template <typename V>
   }
   const V decay = p.law == FrictionLaw::kElastoPlastic ? calc_plastic_decay(p, speed, v_t, v_z, z_t, z_z)
                                                        : calc_bristle_decay(p, speed);
-  return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
+  return {calc_bristle_response(p, decay, v_t, z_t), calc_bristle_response(p, decay, v_z, z_z)};
 }
 
 /// Friction at several contact points side by side; by laws with branches, at one point after the other.
@@ -118,7 +118,7 @@ template <int count>
                                                                          const LaneBlock<count>& z_z) {
   if (p.law == FrictionLaw::kLuGre || p.law == FrictionLaw::kDahl) {
     const LaneBlock<count> decay = calc_bristle_decay(p, sqrt(v_t * v_t + v_z * v_z));
-    return {calc_bristle_law(p, decay, v_t, z_t), calc_bristle_law(p, decay, v_z, z_z)};
+    return {calc_bristle_response(p, decay, v_t, z_t), calc_bristle_response(p, decay, v_z, z_z)};
   }
   FrictionForce<LaneBlock<count>> all{};
   for (int lane = 0; lane < count; ++lane) {

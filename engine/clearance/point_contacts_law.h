@@ -109,7 +109,7 @@ RPSUP_INLINE void add_point_contact(const PointContacts& contacts, const Relativ
   const V rate = dot(point.n, velocity);
   const P elastic = joint.K * (point.delta * sqrt(point.delta));
   const V onset = choose_onset_rate(contacts.latch(i).rate(), rate, joint.minimum_onset_rate);
-  const NormalLaw<V> normal = calc_normal_law(elastic, rate, onset, joint.chi, joint.damping);
+  const NormalForce<V> normal = calc_normal_force(elastic, rate, onset, joint.chi, joint.damping);
   Vec3<V> force = -(normal.total * point.n);
   if (joint.friction) {
     const bool is_ball = joint.geometry == ContactGeometry::kBallInSocket;

@@ -46,7 +46,8 @@ RPSUP_INLINE void add_rings(const RadialContinuum& contact, const RelativeMotion
   const Rings rate = calc_ring_rate(journal, ring);
   const RingForce<Rings> force = calc_hertz_force(contact, delta);
   const Rings onset = choose_onset_rate(Rings::load(contact.latches() + i), rate, joint.minimum_onset_rate);
-  NormalLaw<Rings> normal = calc_normal_law(force.elastic, rate, onset, joint.chi, contact.ring_damping());
+  NormalForce<Rings> normal =
+      calc_normal_force(force.elastic, rate, onset, joint.chi, contact.ring_damping());
   normal = {choose_greater(beyond, none, normal.total, none),
             choose_greater(beyond, none, normal.loss_power, none)};
   const double r_j = joint.r_j();

@@ -55,8 +55,9 @@ class MotionSystem {
   [[nodiscard]] EvaluationStatus calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt,
                                                  Evaluation& at);
 
-  /// Computes the exact Jacobian J = df/dy, or the operating point that the recursive solver needs instead,
-  /// and df/dt at (t, y), with the contacts as they are. All is valid until the next call.
+  /// Computes the Jacobian J = df/dy, or the operating point that the recursive solver needs instead, and
+  /// df/dt at (t, y), with the contacts as they are. All is valid until the next call. The Jacobian is exact
+  /// but for the normal force of friction by reaction, which counts as constant.
   [[nodiscard]] EvaluationStatus linearise(double t, const Eigen::VectorXd& y,
                                            NewtonSolver newton_solver = NewtonSolver::kDense);
   /// The cheaper solver for this mechanism.

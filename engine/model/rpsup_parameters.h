@@ -106,7 +106,7 @@ struct RpsupParameters {
   double bearing_radius = 5e-3;                    ///< r_b, [m]
   double bearing_length = 16e-3;                   ///< L_b, [m]
   NormalForceLaw normal_law = NormalForceLaw::kLankaraniNikravesh;
-  double restitution = 0.9;                        ///< k_r, (0, 1]
+  double restitution = 0.9;                        ///< k_r, (0, 1]; 0 by laws that allow it
   double contact_damping = 1000.0;                 ///< of Kelvin and Voigt's law, [N s/m]
   StiffnessLaw stiffness_law = StiffnessLaw::kHertz;
   double contact_stiffness_scale = 1.0;            ///< factor on the stiffness of the bore, [1]
