@@ -12,8 +12,8 @@ namespace engine {
 namespace {
 
 TEST(NormalForce, IsNeverNegative) {
-  EXPECT_DOUBLE_EQ(calc_normal_law(100.0, -10.0, 0.1, 0.2, 0.0).total, 0.0);
-  EXPECT_DOUBLE_EQ(calc_normal_law(100.0, -10.0, 0.1, 0.2, 0.0).loss_power, 1000.0);  // what the spring gives is lost
+  EXPECT_DOUBLE_EQ(calc_normal_force(100.0, -10.0, 0.1, 0.2, 0.0).total, 0.0);
+  EXPECT_DOUBLE_EQ(calc_normal_force(100.0, -10.0, 0.1, 0.2, 0.0).loss_power, 1000.0);  // what the spring gives is lost
 }
 
 TEST(OnsetLatch, ReadsTheRateWhereThePenetrationCrossesZero) {
