@@ -36,7 +36,7 @@ void UnstableModeLimiter::check_local_stability(MotionSystem& system, const Step
   if (!has_joint_friction_ && !has_friction_force(start.at)) return;
   const NewtonSolver solver = system.choose_newton_solver(stepper.shifts());
   if (system.linearise(start.t, start.y, solver) != EvaluationStatus::kOk) return stepper.invalidate();
-  const Instability found = modes_.find(system);
+  const Instability found = modes_.find(system, has_clearance_ ? kSlowestWithClearance : kSlowestWithout);
   stepper.jacobian_refreshed();
   if (found.growth == 0.0) return;
   log_growth_ = log_growth + found.growth * since;

@@ -34,6 +34,10 @@ class UnstableModeLimiter {
   static constexpr double kMaxPhase =
       1.5;  ///< of a mode in a step, [rad]: radau5 takes a thousandth of its amplitude then
 
+  /// Growth of the modes that are looked for, [1/s]. Contacts change before a slower mode has grown; without
+  /// any, one has the whole run for it.
+  static constexpr double kSlowestWithClearance = 20.0, kSlowestWithout = 0.5;
+
   const bool has_clearance_, has_joint_friction_;
   double check_interval_;      ///< [s]; infinite: no check
   double longest_step_;        ///< [s]

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kShift =
     5e4;  // s, [1/s]; journals of the paper's size bounce at 1e4 to 3e4 rad/s on their bores
-constexpr double kSlowestGrowth = 20.0;  // [1/s]; the contact changes before a slower mode has grown
 
 }  // namespace
 
@@ -20,14 +19,14 @@ constexpr double kSlowestGrowth = 20.0;  // [1/s]; the contact changes before a 
 UnstableModes::UnstableModes(Eigen::Index free_count)
     : response_(2 * free_count, 2 * free_count), solver_(2 * free_count) {}
 
-Instability UnstableModes::find(MotionSystem& system) {
+Instability UnstableModes::find(MotionSystem& system, double slowest_growth) {
   Instability found;
   if (!system.factor(kShift)) return found;
   calc_response(system);
   if (!response_.allFinite() || solver_.compute(response_, false).info() != Eigen::Success) return found;
   for (const std::complex<double>& inverse : solver_.eigenvalues()) {
     const std::complex<double> eigenvalue = kShift - 1.0 / inverse;
-    if (!(eigenvalue.real() > kSlowestGrowth && eigenvalue.imag() > eigenvalue.real())) continue;
+    if (!(eigenvalue.real() > slowest_growth && eigenvalue.imag() > eigenvalue.real())) continue;
     found.growth = std::max(found.growth, eigenvalue.real());
     found.frequency = std::max(found.frequency, eigenvalue.imag());
   }

@@ -33,8 +33,9 @@ class UnstableModes {
   explicit UnstableModes(Eigen::Index free_count);
 
   /// @param system  linearised, with free coordinates; its factors for a real shift are others afterwards
+  /// @param slowest_growth  of the modes that are looked for, [1/s]
   /// @returns no instability where the matrix is singular, or its eigenvalues are not found
-  [[nodiscard]] Instability find(MotionSystem& system);
+  [[nodiscard]] Instability find(MotionSystem& system, double slowest_growth);
 
  private:
   void calc_response(MotionSystem& system);

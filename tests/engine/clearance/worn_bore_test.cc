@@ -75,7 +75,7 @@ TEST(WornBore, HasTheLocusOfABoreAboutAnotherCentre) {
 TEST(WornBore, LetsAJournalLieOnTheEdgesOfAGroove) {
   const auto lies_on = [](double degrees) { return kWornClearance / std::cos(degrees * pi / 180.0) - kWornClearance; };
   for (const double degrees : {5.0, 40.0, 75.0, 82.0}) {
-    const double depth = 20.0 * kWornClearance;
+    const double depth = 1.2 * lies_on(degrees + 2.0);
     const WornBore bore(kWornClearance, make_depth(360, [&](double phi) { return std::abs(phi - pi) < degrees * pi / 180.0 ? depth : 0.0; }));
     EXPECT_GT(bore.calc_depth(0, pi), 0.99 * depth);
     // The edges lie in sectors of a degree, and the spline rounds them.

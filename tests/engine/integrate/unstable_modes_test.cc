@@ -39,7 +39,7 @@ Instability find_among(const std::vector<Oscillator>& oscillators) {
   const auto n = static_cast<Eigen::Index>(oscillators.size());
   EXPECT_EQ(system.linearise(0.0, system.make_state(Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n))),
             EvaluationStatus::kOk);
-  return UnstableModes(system.free_count()).find(system);
+  return UnstableModes(system.free_count()).find(system, 1.0);
 }
 
 constexpr double kFast = 1e8, kSlow = 1e6;  // stiffness of 1e4 and 1e3 rad/s
@@ -78,7 +78,7 @@ void expect_same_step_after_a_check(Shifts shifts) {
   Method method(tolerance);
   ASSERT_LE(method.try_step(system, start, kStep, end).error, 1.0);
   ASSERT_EQ(system.linearise(0.0, start.y, system.choose_newton_solver(shifts)), EvaluationStatus::kOk);
-  (void)UnstableModes(system.free_count()).find(system);
+  (void)UnstableModes(system.free_count()).find(system, 1.0);
   method.jacobian_refreshed();
   ASSERT_LE(method.try_step(system, start, kStep, again).error, 1.0);
   EXPECT_EQ(again.y, end.y);

@@ -281,10 +281,13 @@ TEST_F(ClusterTest, FailsAJobThatNoTaskCanCompute) {
   start();
   const std::string id = submit(1);
   const auto batch = await_generation(0);
-  std::ofstream(batch / "log" / "g1-0.log") << "Illegal instruction\n";
-  report_all(batch, 2, "FAILED", "NonZeroExitCode");
-  await_generation(1);
-  report_all(batch, 2, "FAILED", "NonZeroExitCode");
+  report_all(batch, 3, "FAILED", "NonZeroExitCode");  // without a log: no fault of the task
+  for (const int generation : {1, 2}) {
+    const std::string name = "g" + std::to_string(generation) + "-0.log";
+    std::ofstream(batch / "log" / name) << "Illegal instruction\n";
+    await_generation(generation);
+    report_all(batch, 3, "FAILED", "NonZeroExitCode");
+  }
   ASSERT_TRUE(service_->wait_for_sweep(id, 300s));
   const auto job = service_->find_job(service_->find_results(id)->rows.at(0).at(0)).value();
   EXPECT_EQ(job.at("error").at("reason"), "task_failed");
