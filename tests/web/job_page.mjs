@@ -152,6 +152,22 @@ test("plots outlive a service that was away", async () => {
   await leave(page, away);
 });
 
+test("the linkage is asked for in pauses while the service is away, and drawn when it is back", async () => {
+  const { id } = await computedJob();
+  const page = await visit("#/wear");
+  const poses = /\/trajectory\?.*pose_/;
+  let asked = 0;
+  await page.route(poses, (route) => { asked += 1; return route.abort(); });
+  await page.goto(`${url}/#/jobs/${id}`);
+  await page.locator(".card[aria-label=Linkage]").getByText("The service does not answer. Trying again …").waitFor();
+  const before = asked;
+  await page.waitForTimeout(2500);
+  assert.ok(asked - before <= 2, `${asked - before} requests in 2.5 s`);
+  await page.unroute(poses);
+  await page.locator("canvas.scene[data-instant='0']").waitFor();
+  await leave(page, away);
+});
+
 test("plots tell the peaks that lie between their samples, and are saved with their names", async () => {
   const { id, metrics } = await computedJob();
   const page = await visit(`#/jobs/${id}`);

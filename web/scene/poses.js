@@ -6,6 +6,7 @@ import { findTrajectory } from "/core/api.js";
 const framesPerStretch = 120;
 const leastSamples = 400;
 const mostStretches = 24;
+const againMs = 2000;  // until a stretch that failed is asked for again
 const parts = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
 
 export class Poses {
@@ -13,7 +14,7 @@ export class Poses {
   #stretches = new Map();
 
   /// @param drawn   links by their names as in the channels: "1_1", "1_3_0"; and other channels
-  /// @param loaded  is called when more is known than before
+  /// @param loaded  is called when more is known than before, or may be asked for again
   /**
    * @param {Api.Job} job
    * @param {{ links: string[], others: string[] }} drawn
@@ -67,8 +68,13 @@ export class Poses {
         this.signal);
       this.loaded(null);
     } catch (error) {
-      this.#stretches.delete(key);
-      if (error.name !== "AbortError") this.loaded(error);
+      if (error.name === "AbortError") return;
+      this.loaded(error);
+      // Until then the stretch stays known, as empty: each drawing asks for all that are unknown.
+      setTimeout(() => {
+        this.#stretches.delete(key);
+        if (!this.signal.aborted) this.loaded(null);
+      }, againMs);
     }
   }
 

@@ -63,8 +63,10 @@ export function sceneCard(job, channels, times, signal) {
     const arrows = forces.length > 0 ? new JointForces(libraries.THREE, { job, forces, ranges,
       ...arrowSizes(job, linkage) }) : null;
     if (arrows) stage.scene.add(arrows.group);
-    const poses = new Poses(job, { links, others: followed },
-      (error) => { status.textContent = error ? error.message : ""; draw(); }, signal);
+    const poses = new Poses(job, { links, others: followed }, (error) => {
+      status.textContent = error ? `${error.message} Trying again …` : "";
+      if (!error) draw();
+    }, signal);
     draw = () => {
       const shown = poses.at(times.instant, player.speed);
       if (!shown) return;
