@@ -38,8 +38,9 @@ export async function show(main, { query, signal }) {
   main.replaceChildren(...view.parts());
   await view.refresh();
   view.keepAsking();
-  // The next view needs them.
-  requestIdleCallback(() => Promise.all([warmUpCharts(), import("/pages/sweep.js")]).catch(() => {}));
+  // The next view needs them. Safari tells no idle time.
+  const later = globalThis.requestIdleCallback ?? setTimeout;
+  later(() => Promise.all([warmUpCharts(), import("/pages/sweep.js")]).catch(() => {}));
 }
 
 class SweepList {
