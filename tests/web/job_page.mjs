@@ -168,6 +168,27 @@ test("the linkage is asked for in pauses while the service is away, and drawn wh
   await leave(page, away);
 });
 
+test("jobs that have no curves are left out of an overlay", async () => {
+  const { id } = await computedJob();
+  const page = await visit("#/wear");
+  await giveJob(page, { job: given("failed"), sweep: sweepOf({ failed: 2 }) });
+  await page.goto(`${url}/#/jobs/${id}?with=job_given,job_of_nobody`);
+  await page.getByText("without …given, …obody: deleted, not succeeded or without trajectory").waitFor();
+  await page.locator(".uplot").nth(4).waitFor();
+  await leave(page, /404/);
+});
+
+test("a job that keeps its metrics alone shows them", async () => {
+  const { id } = await computedJob({ keep: "metrics" });
+  const page = await visit(`#/jobs/${id}`);
+  await page.getByText("No plots: this job keeps its metrics alone.").waitFor();
+  await page.getByRole("region", { name: "Metrics" }).waitFor();
+  await page.getByText("Parameters at their defaults").waitFor();
+  assert.equal(await page.getByRole("link", { name: "CSV", exact: true }).count(), 0);
+  await expectAccessible(page);
+  await leave(page);
+});
+
 test("plots tell the peaks that lie between their samples, and are saved with their names", async () => {
   const { id, metrics } = await computedJob();
   const page = await visit(`#/jobs/${id}`);

@@ -30,6 +30,9 @@ const isFormat = { csv: true, json: true, npz: true };
 const formats = /** @type {Format[]} */ (Object.keys(isFormat));
 /** @type {(state: Api.State) => boolean} */
 const isWaiting = (state) => state === "queued" || state === "running";
+/// Whether a job has what plots need: it has succeeded and stores its trajectory.
+/** @type {(job: Api.Job) => boolean} */
+const hasTrajectory = ({ state, parameters: { keep } }) => state === "succeeded" && keep !== "metrics";
 const sliderAcceleration = "slider_acceleration_m_s2";
 const energies = ["kinetic_energy_j", "potential_energy_j", "drive_work_j"];
 const pollMs = 1000;
@@ -43,22 +46,37 @@ function titleOfDrives(channels) {
   return torques === 0 ? "Drive force" : torques === channels.length ? "Drive torque" : "Drive torque and force";
 }
 
+/// Job that is laid over another; null if there is no such job any more.
+/** @param {string} id  @param {AbortSignal} signal  @returns {Promise<Api.Job | null>} */
+async function findOther(id, signal) {
+  try {
+    return await findJob(id, signal);
+  } catch (error) {
+    if (error.status === 404) return null;
+    throw error;
+  }
+}
+
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
   const others = (query.get("with") ?? "").split(",").filter(Boolean);
-  const [schema, job, ...more] =
-    await Promise.all([parameterSchema(), findJob(id, signal), ...others.map((other) => findJob(other, signal))]);
+  const [schema, job, ...found] = await Promise.all([parameterSchema(), findJob(id, signal),
+    ...others.map((other) => findOther(other, signal))]);
+  /** @type {(other: Api.Job) => boolean} */
+  const isComparable = hasTrajectory(job) ? hasTrajectory : ({ state }) => state === "succeeded";
+  const more = found.filter((other) => other !== null).filter(isComparable);
   document.title = `RPSUP: job ${id.slice(-5)}`;
   // The varied parameters of a sweep tell jobs of a described linkage apart. A sweep may be gone.
   const sweep = isDescribed(job) && job.sweep_id
     ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
   const page = new JobPage([job, ...more], schema, query, signal, sweep?.axes ?? []);
+  page.omitted = others.filter((other) => !more.some((each) => each.id === other));
   if (job.state !== "succeeded") {
     await page.waitForEnd(main);
     return;
   }
   main.replaceChildren(...page.head());
-  main.append(...await page.body());
+  main.append(...(hasTrajectory(job) ? await page.body() : page.metricsAlone()));
 }
 
 class JobPage {
@@ -75,6 +93,9 @@ class JobPage {
   /// Curves of measurements, each in the plot of its channel.
   /** @type {Trace[]} */
   measured = [];
+  /// Ids of jobs that the address lays over this one and that cannot be.
+  /** @type {string[]} */
+  omitted = [];
 
   /**
    * @param {Api.Job[]} jobs
@@ -110,7 +131,7 @@ class JobPage {
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
-    const links = job.state === "succeeded"
+    const links = hasTrajectory(job)
       ? h("p", { class: "actions" },
         formats.map((format) =>
           h("a", { class: "button", href: trajectoryUrl(job.id, { format }), download: `${job.id}.${format}` },
@@ -120,11 +141,19 @@ class JobPage {
           ? h("button", { onclick: () => cancelJob(job.id).catch((error) => notify(error.message, "trouble")) },
             "Cancel") : null);
     return [h("div", { class: "head" }, h("div", {}, h("h1", {}, title),
-      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back,
-        this.jobs.length > 1 ? [` · overlaid with ${this.jobs.length - 1} more · `,
-          h("a", { href: routeTo("jobs", job.id) }, "this job only")] : "",
-        this.overlays.length > 0 ? [" · measured signals laid over · ", h("a", { href: this.addressWith([]) },
-          "without them")] : "")), links), failure].filter(Boolean);
+      h("p", { class: "quiet" }, `Job ${job.id}, `, this.state, " · ", back, this.overlaid())), links),
+      failure].filter(Boolean);
+  }
+
+  /// What is laid over the job, and which jobs cannot be.
+  overlaid() {
+    const ends = this.omitted.map((id) => `…${id.slice(-5)}`).join(", ");
+    return [this.jobs.length > 1 ? ` · overlaid with ${this.jobs.length - 1} more` : "",
+      ends ? ` · without ${ends}: deleted, not succeeded or without trajectory` : "",
+      this.jobs.length > 1 || ends
+        ? [" · ", h("a", { href: routeTo("jobs", this.job.id) }, "this job only")] : "",
+      this.overlays.length > 0 ? [" · measured signals laid over · ",
+        h("a", { href: this.addressWith([]) }, "without them")] : ""].flat();
   }
 
   drawState() {
@@ -159,6 +188,12 @@ class JobPage {
   findItsSweep(tell) {
     const { sweep_id: id } = this.job;
     return id ? retryWhileUnreachable(() => findSweep(id, this.signal), tell, this.signal) : null;
+  }
+
+  /// Page of a job that stores no trajectory.
+  metricsAlone() {
+    return [h("p", { class: "quiet" }, "No plots: this job keeps its metrics alone."),
+      h("div", { class: "columns even" }, metricsCard(this.jobs), runCard(this.job, this.schema, this.axes))];
   }
 
   async body() {
