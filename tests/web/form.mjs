@@ -66,6 +66,11 @@ test("velocities are entered in rpm and angles in degrees", async () => {
   // The number in the field keeps its meaning: 30 rad/s are 900/π rpm.
   assert.ok(Math.abs(Number(await velocity.inputValue()) * Math.PI / 900 - 1) < 1e-10);
   assert.equal((await shown(page)).parameters.crank_velocity_rad_s, 30);
+  // With a decimal comma, too.
+  await velocity.fill("10,5");
+  await page.getByLabel("Crank velocity: unit").selectOption("rad/s");
+  await page.getByLabel("Crank velocity: unit").selectOption("rpm");
+  assert.ok(Math.abs((await shown(page)).parameters.crank_velocity_rad_s / (10.5 * Math.PI / 30) - 1) < 1e-10);
   await velocity.fill("120");
   assert.ok(Math.abs((await shown(page)).parameters.crank_velocity_rad_s / (4 * Math.PI) - 1) < 1e-11);
   await page.getByLabel("Crank velocity: kind of value").selectOption("list");

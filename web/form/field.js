@@ -26,7 +26,8 @@ export function fieldRow(field, entry, changed) {
     if (units.length === 1 || field.kind === "numbers") return [];
     const select = h("select", { "aria-label": `${name}: unit`, onchange: () => {
       const factor = factorOf(field, entry.unit) / factorOf(field, select.value);
-      for (const key of ["text", "from", "to"]) entry[key] = converted(entry[key], factor);
+      entry.text = converted(entry.text, factor, entry.mode === "list");
+      for (const key of ["from", "to"]) entry[key] = converted(entry[key], factor);
       entry.unit = select.value;
       drawValues();
       changed();

@@ -57,9 +57,11 @@ export const factorOf = (field, unit) => (entryUnits[field.unit] ?? []).find(([n
   ?? 1;
 
 /// Numbers in a text, from one unit to another, in at most 12 digits; as it is, if it has none.
-/** @param {string} text  @param {number} factor */
-export function converted(text, factor) {
-  const { values, fault } = readList(text);
+/// @param isList  whether there may be several
+/** @param {string} text  @param {number} factor  @param {boolean} isList */
+export function converted(text, factor, isList = false) {
+  const one = isList ? NaN : readNumber(text);
+  const { values, fault } = Number.isFinite(one) ? { values: [one], fault: "" } : readList(text);
   if (fault || values.length === 0 || values.some((value) => !Number.isFinite(value))) return text;
   return values.map((value) => String(Number((value * factor).toPrecision(12)))).join(", ");
 }
