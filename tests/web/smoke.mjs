@@ -85,7 +85,7 @@ test("a run that ends before its steady part says so", async () => {
 });
 
 test("a request is used again whole", async () => {
-  const request = { name: "whole", priority: 3, reuse: false, parameters: short, sweep: { coupler: ["rigid", "flexible"], youngs_modulus_pa: { from: 1e11, to: 2e11, count: 2, scale: "log" } },
+  const request = { name: "whole", priority: 3, reuse: false, keep: "metrics", executor: "local", parameters: short, sweep: { coupler: ["rigid", "flexible"], youngs_modulus_pa: { from: 1e11, to: 2e11, count: 2, scale: "log" } },
     design: { type: "sobol", count: 3, over: { clearance_mm: { from: 0.1, to: 0.5 } } }, cases: [{ restitution: 0.8 }], replicates: { count: 2, perturbation: 1e-6, seed: 4 } };
   const sweep = await runSweep(request);
   assert.equal(sweep.counts.total, 24);

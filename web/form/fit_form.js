@@ -61,11 +61,13 @@ export class FitForm extends StudyForm {
       h("p", { class: "quiet small" }, "Parameters that are known. Those of the measured runs need "
       + "not be given; duration and output rate follow from the samples."),
     ...this.parameterFields(), this.linkage(),
-    h("details", {}, h("summary", {}, "Priority"), h("p", { class: "actions" }, ...this.orderFields()))];
+    h("details", {}, h("summary", {}, "Priority"), h("p", { class: "actions" }, ...this.orderFields(),
+      this.executorField()))];
   }
 
   build() {
-    const { request: { name, parameters, sweep = {}, priority, reuse }, problems } = this.buildCommon();
+    const { request: { name, parameters, sweep = {}, priority, reuse, executor },
+      problems } = this.buildCommon();
     for (const path of Object.keys(sweep)) {
       problems.push({ path, detail: "must have a single value in a fit" });
     }
@@ -77,7 +79,7 @@ export class FitForm extends StudyForm {
     if (basis !== usual.basis) request.basis = basis;
     if (kind !== usual.intervals) request.intervals = kind;
     this.addNumbers(numbers, request, problems);
-    return { request: JSON.parse(JSON.stringify({ ...request, priority, reuse })), problems };
+    return { request: JSON.parse(JSON.stringify({ ...request, priority, reuse, executor })), problems };
   }
 
   drawCount({ over, measurements, budget }) {

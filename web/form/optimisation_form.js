@@ -68,11 +68,12 @@ export class OptimisationForm extends StudyForm {
     ...this.parameterFields(), this.linkage(),
     h("details", { open: Number(this.state.replicates.count) > 1 },
       h("summary", {}, "Replicates and priority"),
-      h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()))];
+      h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields(),
+        this.executorField()))];
   }
 
   build() {
-    const { request: { name, parameters, sweep, replicates, priority, reuse },
+    const { request: { name, parameters, sweep, replicates, priority, reuse, executor },
       problems } = this.buildCommon();
     const request = { name, parameters };
     addVariables(this.state.over, request, problems);
@@ -90,8 +91,8 @@ export class OptimisationForm extends StudyForm {
     if (bounds.length > 0) request.bounds = bounds;
     if (this.state.method) request.method = this.state.method;
     this.addNumbers(numbers, request, problems);
-    return { request: JSON.parse(JSON.stringify({ ...request, sweep, replicates, priority, reuse })),
-      problems };
+    const whole = { ...request, sweep, replicates, priority, reuse, executor };
+    return { request: JSON.parse(JSON.stringify(whole)), problems };
   }
 
   drawCount(request) {

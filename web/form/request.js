@@ -8,8 +8,8 @@ import { doubtOf, factorOf, readList, readNumber } from "/form/numbers.js";
 export const emptyEntry = () =>
   ({ mode: "one", text: "", from: "", to: "", count: "5", scale: "linear", chosen: [], unit: "" });
 
-/// @param state  {name, priority, reuse, described, linkage, inside, cases, design, replicates: {count, perturbation, seed, only,
-/// tolerance_factor}, entries: {path: entry}}
+/// @param state  {name, priority, reuse, keep, executor, described, linkage, inside, cases, design,
+/// replicates: {count, perturbation, seed, only, tolerance_factor}, entries: {path: entry}}
 /// @returns {request, problems: [{path, detail}]}
 export function buildRequest(fields, state) {
   const problems = [];
@@ -37,6 +37,8 @@ export function buildRequest(fields, state) {
   addReplicates(state, request, problems);
   if (Number(state.priority) !== 0) request.priority = Number(state.priority);
   if (!state.reuse) request.reuse = false;
+  if (state.keep) request.keep = state.keep;
+  if (state.executor) request.executor = state.executor;
   return { request: JSON.parse(JSON.stringify(request)), problems };
 }
 
@@ -191,6 +193,7 @@ export function readRequest(fields, request = {}) {
     .length > 0 ? JSON.stringify(inside, null, 1) : "",
     described: Object.keys(described).length > 0 ? JSON.stringify(described, null, 1) : "",
     name: request.name ?? "", priority: request.priority ?? 0, reuse: request.reuse ?? true, entries,
+    keep: request.keep === "metrics" ? "metrics" : "", executor: request.executor ?? "",
     cases: request.cases ? JSON.stringify(request.cases, null, 1) : "",
     design: request.design ? JSON.stringify(request.design, null, 1) : "",
     replicates: { count: 1, perturbation: 1e-6, seed: 1, tolerance_factor: 1, ...request.replicates } };

@@ -185,6 +185,11 @@ export class RequestForm {
         (value) => { this.state.reuse = value === "yes"; this.update(); })];
   }
 
+  executorField() {
+    return choice("Executor", [["", "the usual one"], "local", "slurm"], this.state.executor,
+      (name) => { this.state.executor = name; this.update(); });
+  }
+
   summary() {
     const copy = (label, code) =>
       h("button", { onclick: () => navigator.clipboard.writeText(code.textContent)

@@ -2,7 +2,7 @@
 // A new sweep: a form made from the service's own description of its parameters.
 import { addressOf, estimateSweep, exampleLinkage, findSweep, parameterSchema,
   submitSweep } from "/core/api.js";
-import { h } from "/core/dom.js";
+import { choice, h } from "/core/dom.js";
 import { plural } from "/core/format.js";
 import { debounce, latest } from "/core/live.js";
 import { routeTo } from "/core/route.js";
@@ -60,7 +60,9 @@ class SweepForm extends RequestForm {
   more() {
     return h("details", { open: this.state.cases + this.state.design !== ""
       || Number(this.state.replicates.count) > 1 }, h("summary", {}, "Replicates, cases, design and priority"),
-      h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields()),
+      h("p", { class: "actions" }, ...this.replicateFields(), ...this.orderFields(),
+        choice("Trajectories", [["", "keep"], ["metrics", "only metrics"]], this.state.keep,
+          (keep) => { this.state.keep = keep; this.update(); }), this.executorField()),
       ...this.json("cases", "Cases: JSON list of parameter sets, each combined with the axes"),
       ...this.json("design",
         "Design of experiments: JSON object (latin_hypercube, sobol, zip, one_at_a_time, morris, saltelli), combined "
