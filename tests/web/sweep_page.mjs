@@ -91,6 +91,13 @@ test("another sweep has thin lines and hollow marks, of the same curves", async 
   await leave(page);
 });
 
+test("a sweep stands alone where the one beside it is gone", async () => {
+  const page = await visitRows(axes, rows, { query: "?with=swp_gone" });
+  await page.waitForURL((address) => !address.href.includes("with="));
+  assert.equal((await curves(page)).length, 12);
+  await leave(page, /404/);
+});
+
 test("the headlines tell the largest and the least value with their parameters, and why jobs failed", async () => {
   const failed = [0, 1, 2].map((k) => ({ job_id: `job_f${k}`, state: "failed", crank_velocity_rad_s: 20, clearance_mm: k, coupler: "rigid", [metric]: null }));
   const failures = failed.map(({ job_id: id }, k) => ({ job_id: id, error_reason: k === 0 ? "time_limit" : "step_limit", error_detail: "" }));

@@ -6,7 +6,7 @@ import { saveButtons, warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { h, notify, setSeen } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
-import { follow, inTurn, isUnderWay, pause, retryWhileUnreachable, throttle } from "/core/live.js";
+import { follow, inTurn, isUnderWay, latest, pause, retryWhileUnreachable, throttle } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { bearsOnPaper, drawSummary } from "/analysis/paper.js";
 import { drawChosen } from "/study/chosen.js";
@@ -46,7 +46,8 @@ export async function show(main, { id, query, signal }) {
   const page = new SweepPage(sweep, rows, schema, query, signal);
   main.replaceChildren(...page.parts());
   page.start();
-  await page.compareWith(query.get("with") ?? "");
+  const other = query.get("with");
+  if (other) await page.compareWith(other);
 }
 
 /// The name of the sweep, while its rows are on their way.
@@ -54,6 +55,13 @@ export async function show(main, { id, query, signal }) {
 function showWhatComes(main, { id, name, counts }) {
   main.replaceChildren(h("h1", {}, name || id),
     h("p", { class: "quiet loading", role: "status" }, `Loading ${plural(counts.total, "job")} …`));
+}
+
+/// Sweep that stands beside another one.
+/** @param {string} id  @param {AbortSignal} signal */
+async function findComparison(id, signal) {
+  const [sweep, rows] = await Promise.all([findSweep(id, signal), findResults(id, {}, signal)]);
+  return { id, name: sweep.name || sweep.id, axes: sweep.axes, rows };
 }
 
 export class SweepPage {
@@ -83,6 +91,9 @@ export class SweepPage {
   cancel;
   /** @type {HTMLButtonElement} */
   retry;
+  /// Puts another sweep beside it, or none: "".
+  /** @type {(id: string) => Promise<void>} */
+  compareWith;
   reloadTook = 0;
   reload = inTurn(() => this.load());
   learnFailures = inTurn(() => this.tryLearnFailures());
@@ -99,6 +110,7 @@ export class SweepPage {
     this.rows = rows;
     this.schema = schema;
     this.signal = signal;
+    this.compareWith = latest((current, /** @type {string} */ id) => this.findOthers(id, current), signal);
     this.axes = sweep.axes;
     this.metrics = metricsOf(rows, this.axes);
     this.view = viewFrom(query, this);
@@ -319,13 +331,18 @@ export class SweepPage {
     this.optimise.href = routeTo("optimisations", "new", { sweep: id, metric });
   }
 
-  /** @param {string} id */
-  async compareWith(id) {
-    if (!id) { this.others = null; return; }
-    const [sweep, rows] = await Promise.all([findSweep(id, this.signal), findResults(id, {}, this.signal)]);
-    this.others = { id, name: sweep.name || sweep.id, axes: sweep.axes, rows };
+  /** @param {string} id  @param {AbortSignal} current */
+  async findOthers(id, current) {
+    let others = null;
+    try {
+      if (id) others = await findComparison(id, current);
+    } catch (error) {
+      if (error.name === "AbortError") throw error;
+      tell(`Not beside this sweep: ${error.message}`);
+    }
+    this.others = others;
     const picker = this.compare.querySelector("select");
-    if (picker) picker.value = id;
-    this.drawAll();
+    if (picker) picker.value = others?.id ?? "";
+    this.changed();
   }
 }

@@ -32,7 +32,5 @@ async function offerComparison(page) {
     [id, name && namesakes(name) > 1 ? `${name}, ${moment(created)}` : name || id]);
   if (alike.length === 0) return;
   page.compare.replaceChildren(
-    choice("Compare with", [["", "none"], ...titles], page.others?.id
-      ?? "",
-      (id) => page.compareWith(id).then(() => page.changed())));
+    choice("Compare with", [["", "none"], ...titles], page.others?.id ?? "", (id) => page.compareWith(id)));
 }
