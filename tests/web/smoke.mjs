@@ -411,7 +411,7 @@ test("a duplicate keeps the parameters that have no field", async () => {
 
 test("a sweep is followed once, however often its jobs are retried", async () => {
   const sweep = await ask("/v1/sweeps", { name: "again", parameters: { duration_s: 2000, run_up_s: 0.1, output_rate_hz: 10 }, sweep: { clearance_mm: [0.11, 0.12, 0.13] } });
-  const page = await visit("#/new");  // not the list: it follows the sweep, too
+  const page = await visit("#/new");
   let followed = 0;
   page.on("request", (request) => { followed += request.url().endsWith(`${sweep.id}/events`) ? 1 : 0; });
   await page.goto(`${url}/#/sweeps/${sweep.id}`);

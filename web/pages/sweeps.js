@@ -6,7 +6,7 @@ import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
 import { ListOrder, Marked } from "/core/list_tools.js";
-import { debounce, follow, isUnderWay } from "/core/live.js";
+import { debounce, isUnderWay } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { executorsPanel } from "/study/executors.js";
 import { SweepRow, jobStates, studyWords } from "/study/sweep_row.js";
@@ -14,7 +14,6 @@ import { SweepRow, jobStates, studyWords } from "/study/sweep_row.js";
 const pageSize = 25;
 const mostSearched = 1000;
 const pollMs = 4000;
-const followed = 3;  // a browser keeps six connections to a service, and the page needs some to ask
 /** @type {(text: string | null) => Api.State | ""} */
 const stateOf = (text) => jobStates.find((state) => state === text) ?? "";
 const columns = [["box", ""], ["name", "Name"], ["state", "State"], ["jobs", "Jobs"], ["peaks", "Peak range"],
@@ -49,8 +48,6 @@ class SweepList {
   sweeps = [];
   /** @type {Map<string, SweepRow>} */
   rows = new Map();
-  /** @type {Set<string>} */
-  followedIds = new Set();
   status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
   body = h("tbody");
   more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
@@ -127,7 +124,6 @@ class SweepList {
       this.more.hidden = !page.next_cursor;
       this.status.classList.remove("trouble");
       this.draw();
-      this.followSome();
     } catch (error) {
       if (error.name === "AbortError") return;
       this.status.textContent = `${error.message} Trying again …`;
@@ -138,24 +134,6 @@ class SweepList {
   keepAsking() {
     const timer = setInterval(() => this.refresh(), pollMs);
     this.signal.addEventListener("abort", () => clearInterval(timer));
-  }
-
-  followSome() {
-    for (const sweep of this.sweeps.filter(isUnderWay)) {
-      if (this.followedIds.size >= followed || this.followedIds.has(sweep.id)) continue;
-      this.followedIds.add(sweep.id);
-      follow(sweep.id, {
-        progress: (news) => this.update({ ...this.sweeps.find(({ id }) => id === sweep.id) ?? sweep, ...news,
-          id: sweep.id }),
-        done: () => { this.followedIds.delete(sweep.id); this.refresh(); },
-      }, this.signal);
-    }
-  }
-
-  /** @param {Api.ListedSweep} sweep */
-  update(sweep) {
-    this.sweeps = this.sweeps.map((known) => (known.id === sweep.id ? sweep : known));
-    this.draw();
   }
 
   /** @param {Api.ListedSweep} sweep */
