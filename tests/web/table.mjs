@@ -95,6 +95,20 @@ test("many jobs: the name stands before the rows, and a chart is drawn once it i
   await leave(page);
 });
 
+test("a selection leaves the table where it is, and the focus in its box", async () => {
+  const page = await visitRows(["clearance_mm", "coupler"], many);
+  const top = () => region(page).evaluate(({ scrollTop }) => scrollTop);
+  await region(page).evaluate((element) => { element.scrollTop = 5000 * 36; });
+  const box = page.getByRole("checkbox", { name: "Select job_05005" });
+  await box.focus();
+  const before = await top();
+  await page.keyboard.press("Space");
+  await page.getByText("1 job selected").waitFor();
+  assert.deepEqual([before > 4000 * 36, await top()], [true, before]);
+  assert.ok(await box.evaluate((element) => element === document.activeElement && element.checked));
+  await leave(page);
+});
+
 test("rows are sorted and filtered, and a faulty filter says how one is written", async () => {
   const page = await visitRows(["clearance_mm", "coupler"], many);
   await page.getByRole("button", { name: /^Peak slider acceleration \[/ }).click();

@@ -65,6 +65,18 @@ export function choice(label, options, value, onchange) {
   return h("label", { class: "choice" }, h("span", {}, label), select);
 }
 
+/// Fills an element anew. Its part that had the focus, by its "data-key", has it again.
+/** @param {HTMLElement} element  @param {() => void} fill */
+export function keepFocus(element, fill) {
+  const { activeElement: active } = document;
+  const key = element.contains(active) ? active?.getAttribute("data-key") : null;
+  fill();
+  if (typeof key !== "string") return;
+  /** @type {HTMLElement | null} */
+  const again = element.querySelector(`[data-key="${CSS.escape(key)}"]`);
+  if (again !== document.activeElement) again?.focus({ preventScroll: true });
+}
+
 /// A small square of a colour, for legends.
 /** @param {string} colour */
 export function swatch(colour) {

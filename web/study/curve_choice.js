@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choice of the curves that are drawn, where there are more than can be told apart.
-import { h } from "/core/dom.js";
+import { h, keepFocus } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
 import { nameOfCurve } from "/study/curves.js";
 import { curvesOfSweep } from "/study/lines.js";
@@ -76,13 +76,4 @@ function curveBox({ key, name }, drawn, most, set) {
     onchange: () => set(isDrawn ? drawn.filter((each) => each !== key) : [...drawn, key]) });
   box.checked = isDrawn;
   return h("label", {}, box, ` ${name}`);
-}
-
-/// Fills a list of boxes anew. The box of the key that had the focus has it again.
-/** @param {HTMLElement} list  @param {() => void} fill */
-function keepFocus(list, fill) {
-  const { activeElement: active } = document;
-  const focused = list.contains(active) ? active?.getAttribute("data-key") : null;
-  fill();
-  if (focused) [...list.querySelectorAll("input")].find((box) => box.dataset.key === focused)?.focus();
 }

@@ -49,7 +49,7 @@ export class RowWindow {
     this.rows = rows;
     let end = this.before;
     this.#ends = widths.map((width) => (end += width));
-    this.#clear();
+    this.#columns = "";  // of no row that is drawn
     this.#follow();
   }
 
@@ -64,7 +64,8 @@ export class RowWindow {
     const { length } = this.rows;
     if (length <= fewRows) return [0, length];
     const seen = Math.ceil((this.scroll.clientHeight || 600) / this.rowHeight);
-    const top = Math.floor(this.scroll.scrollTop / this.rowHeight);
+    // Of fewer rows than before, what is scrolled to may be behind the last one.
+    const top = Math.min(Math.floor(this.scroll.scrollTop / this.rowHeight), Math.max(0, length - seen));
     // In steps of half of what stands around: most frames of a scroll draw nothing.
     const first = Math.max(0, Math.floor((top - around) / (around / 2)) * (around / 2));
     const end = Math.min(length, first + seen + 2.5 * around);
@@ -93,6 +94,7 @@ export class RowWindow {
     const [first, end] = this.#range();
     const [from, to] = this.#columnRange();
     const columns = `${from} ${to}`;
+    // Only now: had the table been laid out without its rows, it would have been scrolled to its top.
     if (columns !== this.#columns) this.#clear();
     if (first === this.#first && this.#drawn.size === end - first) return;
     this.#first = first;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows of a sweep as a table: sorted by any column, filtered, with the columns that one wants. Only the
 // rows that are seen are drawn.
-import { h } from "/core/dom.js";
+import { h, keepFocus } from "/core/dom.js";
 import { number, plural, titleOf } from "/core/format.js";
 import { defines } from "/core/quantities.js";
 import { routeTo } from "/core/route.js";
@@ -33,6 +33,7 @@ export class ResultTable {
     this.filters = new Map();
     this.isFiltered = false;
     this.drawnHead = "";
+    this.drawnHeadings = "";
     /** @type {number[]} */
     this.widths = [];  // of the columns that are shown, in pixels
     this.head = h("tr");
@@ -64,9 +65,6 @@ export class ResultTable {
     this.order = { column, descending: again ? !this.order.descending : false };
     this.scroll.scrollTop = 0;
     this.draw();
-    /** @type {HTMLElement | null} */
-    const heading = this.head.querySelector(`[data-column="${CSS.escape(column)}"]`);
-    heading?.focus();
   }
 
   toggleFilters() {
@@ -87,10 +85,12 @@ export class ResultTable {
   draw() {
     this.choice.draw();
     this.shown = this.choice.shown();
-    this.drawHead();
     this.drawMissing();
     const rows = this.visible();
-    this.window.show(rows, this.widths);
+    keepFocus(this.table, () => {
+      this.drawHead();
+      this.window.show(rows, this.widths);
+    });
     this.table.setAttribute("aria-rowcount", String(rows.length + 1));
     const { length } = this.sweep.rows;
     this.where.textContent = rows.length === length ? plural(length, this.noun)
@@ -98,8 +98,11 @@ export class ResultTable {
   }
 
   drawHead() {
-    this.head.replaceChildren(h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"),
-      ...(this.shown ?? []).map((column) => this.heading(column)));
+    const headings = [h("th", { scope: "col" }, "Select"), h("th", { scope: "col" }, "Job"),
+      ...(this.shown ?? []).map((column) => this.heading(column))];
+    const texts = headings.map(({ outerHTML }) => outerHTML).join("");
+    if (texts !== this.drawnHeadings) this.head.replaceChildren(...headings);
+    this.drawnHeadings = texts;
     // Made anew, the field that is typed into would lose the focus.
     const drawn = JSON.stringify([this.isFiltered, this.shown]);
     if (drawn === this.drawnHead) return;
@@ -173,7 +176,7 @@ export class ResultTable {
     const { metrics } = this.sweep;
     return h("th", { scope: "col", class: this.lookOf(column),
       "aria-sort": sorted ? (this.order.descending ? "descending" : "ascending") : null },
-      h("button", { "data-column": column, ...(metrics.includes(column) ? defines("metrics", column) : {}),
+      h("button", { "data-key": column, ...(metrics.includes(column) ? defines("metrics", column) : {}),
         onclick: () => this.sortBy(column) }, `${this.titleOf(column)}${arrow}`));
   }
 
@@ -191,10 +194,12 @@ export class ResultTable {
   row(row, place, from, to) {
     const { selection } = this.sweep;
     const box = h("input",
-      { type: "checkbox", "aria-label": `Select ${row.job_id}`, onchange: () => selection.toggle([row.job_id]) });
+      { type: "checkbox", "data-key": `box ${row.job_id}`, "aria-label": `Select ${row.job_id}`,
+        onchange: () => selection.toggle([row.job_id]) });
     box.checked = selection.has(row.job_id);
     return h("tr", { class: box.checked ? "selected" : null, "aria-rowindex": place + 2 }, h("td", {}, box),
-      h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", row.job_id) }, `…${row.job_id.slice(-5)}`)),
+      h("td", { class: "fixed" }, h("a", { href: routeTo("jobs", row.job_id), "data-key": row.job_id },
+        `…${row.job_id.slice(-5)}`)),
       this.gap(from), (this.shown ?? []).slice(from, to).map((column, k) => this.cell(row, column, from + k)),
       this.gap(this.widths.length - to));
   }
