@@ -100,6 +100,12 @@ part(".skip").addEventListener("click", (event) => {
   event.preventDefault();
   main.focus();
 });
+// A link to the view that is shown shows it anew: an empty form is empty again.
+document.addEventListener("click", ({ target, ctrlKey, metaKey, shiftKey }) => {
+  const link = target instanceof Element ? target.closest("a[href^='#']") : null;
+  const isElsewhere = ctrlKey || metaKey || shiftKey;  // in another tab or window
+  if (link?.getAttribute("href") === location.hash && !isElsewhere) show();
+});
 startTheme();
 startDefinitions();
 // Without it nothing is missing but the version itself.

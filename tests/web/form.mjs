@@ -58,6 +58,14 @@ test("a decimal comma is understood, or named where it may be another comma", as
   await leave(page);
 });
 
+test("a form is emptied where its address is that of the empty one already", async () => {
+  const page = await visit("#/new");
+  await page.getByLabel("Clearance", { exact: true }).fill("0.25");
+  await page.getByRole("link", { name: "Empty form" }).click();
+  await page.waitForFunction(() => document.querySelector("[data-path='clearance_mm'] input")?.value === "");
+  await leave(page);
+});
+
 test("velocities are entered in rpm and angles in degrees", async () => {
   const page = await visit("#/new");
   const velocity = page.getByLabel("Crank velocity", { exact: true });
