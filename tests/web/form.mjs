@@ -66,6 +66,21 @@ test("a form is emptied where its address is that of the empty one already", asy
   await leave(page);
 });
 
+test("values with replicates follow the axes", async () => {
+  const page = await visit("#/new?template=paper");
+  await page.getByText("40 jobs", { exact: true }).waitFor();
+  await page.getByLabel("Crank velocity", { exact: true }).fill("5, 8");
+  await page.getByRole("alert").getByText("/replicates/only").waitFor();
+  const only = page.getByLabel("Values with replicates (JSON; empty: all)");
+  await only.fill('{"clearance_mm": 0.25');
+  await page.getByRole("alert").getByText("only: must be a JSON object of lists").waitFor();
+  await only.fill('{"clearance_mm": [0.25]}');
+  // Four replicates more of the rigid and the flexible coupler at both velocities.
+  await page.getByText(`${3 * 2 * 2 + 4 * 2 * 2} jobs`, { exact: true }).waitFor();
+  assert.deepEqual((await shown(page)).replicates.only, { clearance_mm: [0.25] });
+  await leave(page, /422/);
+});
+
 test("velocities are entered in rpm and angles in degrees", async () => {
   const page = await visit("#/new");
   const velocity = page.getByLabel("Crank velocity", { exact: true });

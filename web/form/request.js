@@ -66,14 +66,14 @@ export const isDescription = (text) => text.trim().startsWith("{");
 function addReplicates(state, request, problems) {
   if (Number(state.replicates.count) > 1) {
     const { count, perturbation, seed, only, tolerance_factor: factor } = state.replicates;
-    // undefined: every set
     const number = (name, value) => {
       const read = readNumber(String(value));
       if (!Number.isFinite(read)) problems.push({ path: `replicates: ${name}`, detail: "must be a number" });
       return read;
     };
     request.replicates = { count: Number(count), perturbation: number("perturbation", perturbation),
-      seed: number("seed", seed), only };
+      seed: number("seed", seed) };
+    addJson("only", only, request.replicates, problems);
     const tolerance = number("factor of the tolerances", factor);
     if (tolerance !== 1) request.replicates.tolerance_factor = tolerance;
   }
@@ -142,6 +142,8 @@ const jsonKinds = {
       + "{\"crank_drive\": {\"law\": \"velocity_table\", \"times_s\": [0, 2], \"velocities_rad_s\": [0, 10]}}" },
   linkage: { fits: (value) => isObject(value) || value === "rpsup",
     detail: "must be a JSON object that describes a linkage, with bodies and joints" },
+  only: { fits: (value) => isObject(value) && Object.values(value).every(Array.isArray),
+    detail: "must be a JSON object of lists, such as {\"clearance_mm\": [0.25, 0.5]}" },
   inside: { fits: (value) => isObject(value) && Object.keys(value).every(isInside),
     detail: "must be a JSON object of axes, such as {\"linkage.bodies.rod.mass_kg\": [0.2, 0.4]}" },
   cases: { fits: Array.isArray, detail: "must be a JSON list of objects, such as [{\"clearance_mm\": 0.1}]" },
@@ -150,7 +152,8 @@ const jsonKinds = {
       + "\"over\": {\"clearance_mm\": {\"from\": 0.1, \"to\": 0.5}}}" },
 };
 
-/// Adds a part that is written as JSON: drives, the linkage, axes inside it, cases or the design.
+/// Adds a part that is written as JSON: drives, the linkage, axes inside it, cases, the design, or values
+/// with replicates.
 function addJson(key, text, request, problems) {
   if (text.trim() === "") return;
   const { fits, detail } = jsonKinds[key];
@@ -196,7 +199,8 @@ export function readRequest(fields, request = {}) {
     keep: request.keep === "metrics" ? "metrics" : "", executor: request.executor ?? "",
     cases: request.cases ? JSON.stringify(request.cases, null, 1) : "",
     design: request.design ? JSON.stringify(request.design, null, 1) : "",
-    replicates: { count: 1, perturbation: 1e-6, seed: 1, tolerance_factor: 1, ...request.replicates } };
+    replicates: { count: 1, perturbation: 1e-6, seed: 1, tolerance_factor: 1, ...request.replicates,
+      only: request.replicates?.only ? JSON.stringify(request.replicates.only) : "" } };
 }
 
 function entryOf(field, values, mode) {

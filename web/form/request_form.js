@@ -176,7 +176,8 @@ export class RequestForm {
     return [this.text("Replicates", replicates, "count", { type: "number", min: 1 }),
       this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
       this.text("Factor of both tolerances in all but the first", replicates, "tolerance_factor"),
-      this.text("Seed", replicates, "seed", { type: "number" })];
+      this.text("Seed", replicates, "seed", { type: "number" }),
+      this.text("Values with replicates (JSON; empty: all)", replicates, "only", { size: 40 })];
   }
 
   orderFields() {
