@@ -63,6 +63,18 @@ test("a measurement is looked at before it is sent, and faults stand at their ch
   await leave(page, /422/);
 });
 
+test("cells in quotes are read as the service reads them", async () => {
+  const page = await visit("#/measurements/new");
+  const csv = '"time [s]","acc, ""x""" , plain\r\n"0","1.5",-1\n0.1,"",""\n';
+  const columns = await page.evaluate(async (text) => {
+    const { readFiles } = await import("/measure/read_files.js");
+    const { runs } = await readFiles([new File([text], "quoted.csv")]);
+    return Object.entries(runs[0].columns).map(([name, values]) => [name, values.map(String)]);
+  }, csv);
+  assert.deepEqual(columns, [["time [s]", ["0", "0.1"]], ['acc, "x"', ["1.5", "NaN"]], ["plain", ["-1", "NaN"]]]);
+  await leave(page);
+});
+
 test("a fit finds the clearance of a measurement", { timeout: 5 * minutes }, async () => {
   const page = await visit(`#/measurements/${measurement}`);
   await page.getByRole("link", { name: "Fit", exact: true }).click();

@@ -64,17 +64,30 @@ async function readJson(file) {
       parameters: run.parameters ? JSON.stringify(run.parameters, null, 1) : "" })) };
 }
 
+/// Cells of a line, parted by commas that are not in quotes. A cell in quotes loses them; of two quotes in it
+/// one stays.
+/** @param {string} line */
+function cellsOf(line) {
+  const cells = [""];
+  line.split("\"").forEach((part, index, parts) => {
+    const isQuote = part === "" && index > 0 && index < parts.length - 1;
+    const [first, ...more] = index % 2 === 1 ? [part] : isQuote ? ["\""] : part.split(",");
+    cells[cells.length - 1] += first;
+    cells.push(...more);
+  });
+  return cells;
+}
+
 /// Columns of a CSV text; a cell that is no number becomes NaN, and the service says which one it is.
 /** @param {string} content */
 function columnsOf(content) {
   const lines = content.split(/\r\n|\n|\r/);
-  const names = lines[0].replace(/^\uFEFF/, "").split(",")
-    .map((name) => name.trim().replace(/^"(.*)"$/, "$1"));
+  const names = cellsOf(lines[0].replace(/^\uFEFF/, "")).map((name) => name.trim());
   /** @type {number[][]} */
   const values = names.map(() => []);
   for (const line of lines.slice(1)) {
     if (line === "") continue;
-    const cells = line.split(",");
+    const cells = cellsOf(line);
     values.forEach((column, index) => column.push(cells[index]?.trim() ? Number(cells[index]) : NaN));
   }
   return Object.fromEntries(names.map((name, index) => [name, values[index]]));
