@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, runSweep, url, visit } from "./visitor.mjs";
+import { ask, endVisits, expectAccessible, expectNoSideways, leave, picture, runSweep, textOf, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const short = { duration_s: 0.02, run_up_s: 0.01 };
@@ -128,6 +128,24 @@ test("studies are sorted and deleted together", async () => {
   await page.getByRole("button", { name: "Delete", exact: true }).click();
   await page.getByRole("heading", { name: "No searches yet." }).waitFor();
   assert.deepEqual((await ask("/v1/searches")).items, []);
+  await leave(page);
+});
+
+test("the CSV of a measurement is that of the run that is shown", async () => {
+  const channel = "slider_acceleration_m_s2";
+  const times = Array.from({ length: 20 }, (_, k) => k / 100);
+  const runs = [1, 2].map((factor) => ({ time_s: times, values: { [channel]: times.map((time) => factor * time) } }));
+  const body = JSON.stringify({ name: "twice", channels: [{ name: channel }], runs });
+  const sent = await fetch(`${url}/v1/measurements`, { method: "POST", body, headers: { "Content-Type": "application/json" } });
+  const { id } = await sent.json();
+  const page = await visit(`#/measurements/${id}`);
+  const csv = () => textOf(page, () => page.getByRole("link", { name: "CSV", exact: true }).click());
+  const first = await csv();
+  await page.getByLabel("Run", { exact: true }).selectOption("1");
+  const second = await csv();
+  const last = ({ text }) => Number(text.trim().split(/[\n,]/).at(-1));
+  assert.deepEqual([last(first), last(second)], [0.19, 0.38]);
+  await fetch(`${url}/v1/measurements/${id}`, { method: "DELETE" });
   await leave(page);
 });
 

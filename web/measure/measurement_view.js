@@ -24,31 +24,37 @@ export async function showMeasurement(main, id, query, signal) {
   document.title = `RPSUP: ${name}`;
   const trouble = h("p", { class: "trouble", role: "alert" });
   const plots = h("div");
+  const csv = h("a", { class: "button", download: `${name}.csv` }, "CSV");
   let shown = new AbortController();
   const showRun = (run) => {
     shown.abort();
     shown = new AbortController();
     plots.replaceChildren(...plotsOf(measurement, run, AbortSignal.any([signal, shown.signal])));
+    csv.href = measurementDataUrl(id, { run, format: "csv" });
   };
   const first = Math.min(Number(query.get("run")) || 0, measurement.runs.length - 1);
   const runs = measurement.runs.map((run, index) => [String(index),
     `${index}: ${knownText(run) || plural(run.samples, "sample")}`]);
-  main.replaceChildren(headOf(measurement, name, trouble), trouble, await usersOf(id, signal),
+  main.replaceChildren(headOf(measurement, name, csv, trouble), trouble, await usersOf(id, signal),
     measurement.runs.length > 1 ? h("p", { class: "actions" }, choice("Run", runs, String(first),
       (run) => { rememberQuery({ run }); showRun(Number(run)); })) : "", plots, channelTable(measurement),
     runTable(measurement));
   showRun(first);
 }
 
-/** @param {Api.Measurement} measurement  @param {string} name  @param {HTMLElement} trouble */
-function headOf({ id, created_at: created, samples, duration_s: duration, bytes: size }, name, trouble) {
+/// @param csv  link to the samples
+/**
+ * @param {Api.Measurement} measurement
+ * @param {string} name
+ * @param {HTMLElement} csv
+ * @param {HTMLElement} trouble
+ */
+function headOf({ id, created_at: created, samples, duration_s: duration, bytes: size }, name, csv, trouble) {
   return h("div", { class: "head" }, h("div", {}, h("h1", {}, name),
     h("p", { class: "quiet" }, `${plural(samples, "sample")}, ${number(duration)} s, ${bytes(size)}; stored `
       + `${moment(created)}`)),
   h("p", { class: "actions" },
-    h("a", { class: "button main", href: routeTo("fits", "new", { measurement: id }) }, "Fit"),
-    h("a", { class: "button", href: measurementDataUrl(id, { format: "csv" }), download: `${name}.csv` },
-      "CSV"),
+    h("a", { class: "button main", href: routeTo("fits", "new", { measurement: id }) }, "Fit"), csv,
     h("button", { class: "danger", onclick: () => removeMeasurement(id, name, trouble,
       () => { location.hash = routeTo("measurements"); }) }, "Delete")));
 }
