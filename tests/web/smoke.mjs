@@ -70,6 +70,27 @@ test("a form is sent once, also where it is changed while it is under way", asyn
   await leave(page, /422/);
 });
 
+test("a sweep whose answer was lost is stored once, though it is sent again", async () => {
+  const page = await visit("#/new");
+  await page.getByLabel("Name", { exact: true }).fill("lost");
+  for (const [key, value] of Object.entries(short)) await page.locator(`[data-path="${key}"] input[type="text"]`).fill(String(value));
+  await page.getByText("1 job", { exact: true }).waitFor();
+  let sent = 0;
+  await page.route("**/v1/sweeps", async (route) => {
+    if (route.request().method() !== "POST") return route.continue();
+    const response = await route.fetch();
+    return ++sent === 1 ? route.abort() : route.fulfill({ response });
+  });
+  const submit = page.getByRole("button", { name: "Submit" });
+  await submit.click();
+  await page.getByRole("alert").getByText("The service does not answer.").waitFor();
+  await submit.click();
+  await page.waitForURL(/#\/sweeps\/swp_/);
+  const { items } = await ask("/v1/sweeps?limit=100");
+  assert.deepEqual([sent, items.filter(({ name }) => name === "lost").length], [2, 1]);
+  await leave(page, /ERR_FAILED/);
+});
+
 test("a run that ends before its steady part says so", async () => {
   const sweep = await runSweep({ parameters: { duration_s: 0.3, run_up_s: 0.4 }, sweep: { clearance_mm: [0.1, 0.2] } });
   const page = await visit(`#/sweeps/${sweep.id}`);

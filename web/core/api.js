@@ -31,14 +31,16 @@ const base = new URL("..", import.meta.url).pathname.replace(/\/$/, "");
 export const addressOf = (path) => base + path;
 
 /// Answer to a request. @param type  of a body that is sent as it is; without it the body is sent as JSON
+/// @param key  by which the service knows the request again
 /**
  * @param {string} path
- * @param {{ method?: string, body?: any, type?: string, signal?: AbortSignal }} options
+ * @param {{ method?: string, body?: any, type?: string, key?: string, signal?: AbortSignal }} options
  * @returns {Promise<any>} of JSON; null where there is none
  */
-export async function ask(path, { method = "GET", body, type, signal } = {}) {
+export async function ask(path, { method = "GET", body, type, key, signal } = {}) {
   /** @type {Record<string, string>} */
   const headers = body === undefined ? {} : { "Content-Type": type ?? "application/json" };
+  if (key) headers["Idempotency-Key"] = key;
   let answer;
   let text;
   try {
@@ -52,6 +54,36 @@ export async function ask(path, { method = "GET", body, type, signal } = {}) {
   if (answer.status === 204) return null;
   if (!answer.ok) throw new Refusal(problemOf(text), answer.status);
   return JSON.parse(text);
+}
+
+/// Keys of submissions without an answer, by path and body.
+/** @type {Map<string, string>} */
+const unanswered = new Map();
+
+const freshKey = () => crypto.getRandomValues(new Uint32Array(4)).join("-");
+
+/// What tells the body of a request from others.
+/** @param {any} body */
+function markOf(body) {
+  if (body instanceof File) return `${body.name} ${body.size} ${body.lastModified}`;
+  return typeof body === "string" ? body : JSON.stringify(body);
+}
+
+/// Answer to a submission. What is sent again for want of an answer has the same key, and is stored once.
+/** @param {string} path  @param {any} body  @param {string} [type]  @returns {Promise<any>} */
+async function submit(path, body, type) {
+  const sent = `${path} ${markOf(body)}`;
+  const key = unanswered.get(sent) ?? freshKey();
+  try {
+    const answer = await ask(path, { method: "POST", body, type, key });
+    unanswered.delete(sent);
+    return answer;
+  } catch (error) {
+    // 409: the first one is still being stored.
+    if (isUnreachable(error) || error.status === 409) unanswered.set(sent, key);
+    else unanswered.delete(sent);
+    throw error;
+  }
 }
 
 function problemOf(text) {
@@ -82,7 +114,7 @@ export const listExecutors = (signal) => ask(addressOf("/v1/executors"), { signa
 /** @type {(id: string, signal?: AbortSignal) => Promise<Api.Sweep>} */
 export const findSweep = (id, signal) => ask(sweepPath(id), { signal });
 /** @type {(request: Api.Body<"/v1/sweeps">) => Promise<Api.Sweep>} */
-export const submitSweep = (request) => ask(addressOf("/v1/sweeps"), { method: "POST", body: request });
+export const submitSweep = (request) => submit(addressOf("/v1/sweeps"), request);
 /// Number and cost of the jobs of a sweep that is not submitted. @throws what a submission would
 /** @type {(request: Api.Body<"/v1/sweeps">, signal: AbortSignal) => Promise<Api.Estimate>} */
 export const estimateSweep = (request, signal) => ask(addressOf("/v1/sweeps?dry_run=true"),
@@ -105,7 +137,7 @@ export const findResults = (id, query, signal) => ask(resultsUrl(id, query), { s
 /** @type {(id: string, signal: AbortSignal) => Promise<Api.Job>} */
 export const findJob = (id, signal) => ask(jobPath(id), { signal });
 /** @type {(parameters: Api.Body<"/v1/jobs">) => Promise<Api.Job>} */
-export const submitJob = (parameters) => ask(addressOf("/v1/jobs"), { method: "POST", body: parameters });
+export const submitJob = (parameters) => submit(addressOf("/v1/jobs"), parameters);
 /** @type {(id: string) => Promise<Api.Post<"/v1/jobs/{id}/cancel">>} */
 export const cancelJob = (id) => ask(`${jobPath(id)}/cancel`, { method: "POST" });
 /// Requests to the service for studies of one kind.
@@ -117,7 +149,7 @@ function studies(path) {
     path,
     list: (query, signal) => ask(withQuery(path, query), { signal }),
     find: (id, signal) => ask(of(id), { signal }),
-    submit: (request) => ask(path, { method: "POST", body: request }),
+    submit: (request) => submit(path, request),
     cancel: (id) => ask(`${of(id)}/cancel`, { method: "POST" }),
     retry: (id) => ask(`${of(id)}/retry`, { method: "POST" }),
     remove: (id) => ask(of(id), { method: "DELETE" }),
@@ -156,9 +188,9 @@ export const findMeasurement = (id, signal) => ask(measurementPath(id), { signal
 /** @type {(id: string) => Promise<null>} */
 export const deleteMeasurement = (id) => ask(measurementPath(id), { method: "DELETE" });
 /// Stores the text or the bytes of a file. @param query  name, time, channels
-/** @type {(content: string | Blob, type: string, query: object) => Promise<Api.Measurement>} */
+/** @type {(content: string | File, type: string, query: object) => Promise<Api.Measurement>} */
 export const submitMeasurement = (content, type, query) =>
-  ask(withQuery(measurementPath(), query), { method: "POST", body: content, type });
+  submit(withQuery(measurementPath(), query), content, type);
 /** @param {string} id  @param {Api.Query<"/v1/measurements/{id}/data">} query */
 export const measurementDataUrl = (id, query = {}) => withQuery(`${measurementPath(id)}/data`, query);
 /// Columns of a run, with its time as "t_s".
