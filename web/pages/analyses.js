@@ -13,6 +13,8 @@ import { bearsOnPaper, paperCard } from "/analysis/paper.js";
 import { sensitivityCard } from "/analysis/sensitivity.js";
 import { surrogateCard } from "/analysis/surrogate.js";
 
+/** @type {MakeCard[]} */
+const needMetric = [flexibilityCard, sensitivityCard, surrogateCard];
 const usual = "peak_slider_acceleration_m_s2";  // only RPSUP has it
 
 /** @param {HTMLElement} main  @param {Visit} view */
@@ -30,10 +32,19 @@ export async function show(main, { id, query, signal }) {
   document.title = `RPSUP: analysis of ${name}`;
   const cards = h("div");
   const report = h("a", { class: "button" }, "Report");
+  let life = new AbortController();
   const draw = () => {
     report.href = reportUrl(id, { metric: analysed.metric });
-    cards.replaceChildren(...cardsFor(analysed)
-      .map(([title, help, make]) => card(name, title, help, make, analysed, signal)));
+    life.abort();
+    life = new AbortController();
+    const ofMetric = AbortSignal.any([signal, life.signal]);
+    cardsFor(analysed).forEach(([title, help, make], index) => {
+      const old = cards.children[index];
+      if (old && !needMetric.includes(make)) return;
+      const made = card(name, title, help, make, analysed, needMetric.includes(make) ? ofMetric : signal);
+      if (old) old.replaceWith(made);
+      else cards.append(made);
+    });
   };
   const pick = quantityChoice("Metric", "metrics", metrics, analysed.metric,
     (metric) => { analysed.metric = metric; rememberQuery({ metric }); draw(); });
