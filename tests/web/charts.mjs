@@ -156,6 +156,13 @@ test("more lines than are drawn are counted", async () => {
   await leave(page);
 });
 
+test("more panels than are drawn are counted", async () => {
+  const rows = Array.from({ length: 20 }, (_, k) => [0, 1].map((x) => row(`${k}_${x}`, { x_mm: x, kind: `kind ${k}`, [metric]: k + x }))).flat();
+  const page = await visitRows(["x_mm", "kind"], rows, { query: "?x=x_mm&panel=kind" });
+  assert.equal((await drawn(page, 0)).titles[0], "Peak slider acceleration [m/s²]\n12 of 20 values of kind");
+  await leave(page);
+});
+
 test("no line leads across a value that is missing", async () => {
   const rows = [row(0, { clearance_mm: 0, impact_count: 0, [force]: null, [metric]: 1 }), row(1, { clearance_mm: 0.1, impact_count: 5, [force]: 10, [metric]: 2 }),
     row(2, { clearance_mm: 0.2, impact_count: 6, [force]: 20, [metric]: null }), row(3, { clearance_mm: 0.3, impact_count: 7, [force]: null, [metric]: null }),

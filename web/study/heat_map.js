@@ -54,7 +54,7 @@ function planOf(sweep, width) {
   const { title, ...grids } = gridsOf(view, xs, ys, panels, { columns, lines, width, height });
   return { cells, height, option: {
     ...grids,
-    title: [metricTitle(sweep, groups), ...title],
+    title: [metricTitle(sweep, groups, omittedText(view, panels, allPanels)), ...title],
     tooltip: { formatter: ({ seriesIndex, dataIndex }) => textOf(cells[seriesIndex][dataIndex], view) },
     visualMap: { ...(widened(ends) ?? ends), calculable: true, orient: "horizontal", left: "center", bottom: 0,
       precision: 3,
@@ -67,12 +67,17 @@ function planOf(sweep, width) {
   } };
 }
 
-/// Title of the colour scale, also in saved pictures.
-/** @param {SweepPage} sweep  @param {Group[]} groups */
-function metricTitle(sweep, groups) {
+/// How many values have a panel; empty if all have one.
+/** @param {SweepPage["view"]} view  @param {any[]} panels  @param {any[]} all */
+const omittedText = (view, panels, all) => (panels.length === all.length ? ""
+  : `${panels.length} of ${all.length} values of ${nameOf(view.panel).toLowerCase()}`);
+
+/// Title of the colour scale, also in saved pictures. @param omitted  values without a panel
+/** @param {SweepPage} sweep  @param {Group[]} groups  @param {string} omitted */
+function metricTitle(sweep, groups, omitted) {
   const averaged = averagedAxes(groups, sweep).map((axis) => nameOf(axis).toLowerCase());
-  const text = [titleOf(sweep.view.metric), averaged.length > 0 && `mean over ${averaged.join(", ")}`].filter(Boolean)
-    .join("\n");
+  const mean = averaged.length > 0 && `mean over ${averaged.join(", ")}`;
+  const text = [titleOf(sweep.view.metric), mean, omitted].filter(Boolean).join("\n");
   return { text, left: "center", bottom: 58,
     textStyle: { fontSize: 12, lineHeight: 15, fontWeight: "normal", color: colour("text") } };
 }
