@@ -154,6 +154,15 @@ test("the columns are chosen", async () => {
   await page.getByRole("checkbox", { name: "Count 3", exact: true }).uncheck();
   await page.getByText("Columns: 12 of 13").waitFor();
   assert.equal(await page.getByRole("button", { name: "Count 3" }).count(), 0);
+  // The filter of a column counts as long as it is seen.
+  await page.getByRole("button", { name: "Filter" }).click();
+  await page.getByRole("textbox", { name: "Filter Coupler" }).fill("flex");
+  await page.getByText("5,000 of 10,000 jobs", { exact: true }).waitFor();
+  await page.getByRole("checkbox", { name: "Coupler", exact: true }).uncheck();
+  await page.getByText("5,000 of 10,000 jobs", { exact: true }).waitFor({ state: "hidden" });
+  await page.getByRole("checkbox", { name: "Coupler", exact: true }).check();
+  await page.getByText("5,000 of 10,000 jobs", { exact: true }).waitFor();
+  await page.getByRole("button", { name: "Filter" }).click();
   await page.getByRole("button", { name: "None", exact: true }).click();
   await page.getByText("Columns: 1 of 13").waitFor();
   await page.getByRole("checkbox", { name: "Peak contact force [N]", exact: true }).check();

@@ -144,11 +144,12 @@ export class ResultTable {
     return this.order.column ? sortedBy(wanted, this.order.column, this.order.descending) : wanted;
   }
 
-  /// Tests of the filters. A faulty one is said, and leaves all rows.
+  /// Tests of the filters of the columns that are shown. A faulty one is said, and leaves all rows.
   tests() {
     /** @type {string[]} */
     const faults = [];
-    const tests = [...this.filters].map(([column, text]) => {
+    const shown = [...this.filters].filter(([column]) => this.shown?.includes(column));
+    const tests = shown.map(([column, text]) => {
       try {
         return filterOf(column, text, this.isNumeric(column));
       } catch (error) {
