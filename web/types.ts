@@ -86,7 +86,7 @@ type Listed = { id: string; name: string; state: string; created_at: string };
 /** Requests to the service for studies of one kind. */
 interface Studies<Kept, Item extends Listed, Request> {
   path: string;
-  list(query: { limit?: number }, signal?: AbortSignal): Promise<{ items: Item[] }>;
+  list(query: { limit?: number }, signal?: AbortSignal): Promise<{ items: Item[]; next_cursor: string }>;
   find(id: string, signal?: AbortSignal): Promise<Kept>;
   submit(request: Request): Promise<Kept>;
   cancel(id: string): Promise<Kept>;

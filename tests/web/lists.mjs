@@ -131,6 +131,23 @@ test("studies are sorted and deleted together", async () => {
   await leave(page);
 });
 
+test("more studies than a page has are shown when they are asked for", async () => {
+  const study = (k) => ({ id: `sea_${k}`, name: `search ${k}`, state: "running", created_at: "2026-01-01T00:00:00Z", parameter: "clearance_mm", metric: "max_penetration_um", bound: 4 });
+  const all = Array.from({ length: 101 }, (_, k) => study(k));
+  const page = await visit("#/help");
+  await page.route(/\/v1\/searches\?/, (route) => {
+    const items = all.slice(0, Number(new URL(route.request().url()).searchParams.get("limit")));
+    return route.fulfill({ json: { items, next_cursor: items.length < all.length ? "more" : "" } });
+  });
+  await page.goto(`${url}/#/searches`);
+  await page.getByText("The newest 100.", { exact: true }).waitFor();
+  assert.equal(await page.locator("tbody tr").count(), 100);
+  await page.getByRole("button", { name: "Show more" }).click();
+  await page.getByRole("link", { name: "search 100", exact: true }).waitFor();
+  await page.getByRole("button", { name: "Show more" }).waitFor({ state: "hidden" });
+  await leave(page);
+});
+
 test("the CSV of a measurement is that of the run that is shown", async () => {
   const channel = "slider_acceleration_m_s2";
   const times = Array.from({ length: 20 }, (_, k) => k / 100);

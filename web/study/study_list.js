@@ -13,10 +13,10 @@ import { rememberQuery, routeTo } from "/core/route.js";
  */
 
 const pollMs = 4000;
-const mostListed = 100;
+const pageSize = 100;
 
 /// Shown in place of an empty list: how to begin.
-/** @param {Pick<StudyKind<any>, "none" | "route" | "begin">} kind */
+/** @param {Pick<StudyKind<any>, "none" | "route">} kind */
 function emptyCard({ none, route }) {
   return h("section", { class: "card", hidden: true }, h("h2", {}, none),
     h("p", {}, "The form begins with an example, which can be submitted as it stands and changed as you like. A list "
@@ -49,6 +49,9 @@ class StudyList {
   rows = new Map();
   body = h("tbody");
   status = h("p", { class: "quiet", role: "status" }, "Loading …");
+  limit = pageSize;
+  more = h("button",
+    { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
 
   /** @param {StudyKind<Item>} kind  @param {AbortSignal} signal */
   constructor(kind, signal) {
@@ -79,14 +82,17 @@ class StudyList {
     return [h("h1", {}, title), h("p", {}, question),
       h("p", { class: "actions" }, h("a", { class: "button main", href: routeTo(route, "new") }, begin),
         this.order.element),
-      this.status, this.marked.bar, this.table, this.empty];
+      this.status, this.marked.bar, this.table, this.more, this.empty];
   }
 
   async refresh() {
     try {
-      const { items } = await this.kind.api.list({ limit: mostListed }, this.signal);
+      const { limit } = this;
+      const { items, next_cursor: next } = await this.kind.api.list({ limit }, this.signal);
+      if (limit !== this.limit) return;  // meanwhile more are asked for
       this.items = items;
-      this.status.textContent = items.length === mostListed ? `The newest ${mostListed}.` : "";
+      this.more.hidden = !next;
+      this.status.textContent = next ? `The newest ${items.length}.` : "";
       this.draw();
       await this.learn();
     } catch (error) {
