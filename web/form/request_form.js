@@ -192,9 +192,11 @@ export class RequestForm {
   }
 
   summary() {
-    const copy = (label, code) =>
-      h("button", { onclick: () => navigator.clipboard.writeText(code.textContent)
-        .then(() => notify("Copied."), () => notify("The browser does not allow copying.", "trouble")) }, label);
+    // Browsers have a clipboard for pages of https and of the own machine only.
+    const write = (text) => navigator.clipboard?.writeText(text) ?? Promise.reject(new Error("no clipboard"));
+    const refused = () => notify("The browser does not allow copying.", "trouble");
+    const copy = (label, code) => h("button",
+      { onclick: () => write(code.textContent).then(() => notify("Copied."), refused) }, label);
     return [this.count, this.cost, this.faults, this.blocked, h("p", {}, this.send),
       h("h2", {}, "Request"), h("pre", { tabindex: 0 }, this.shown),
       h("p", { class: "actions" }, copy("Copy JSON", this.shown), copy("Copy as curl", this.curl)),
