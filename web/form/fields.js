@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parameters of the service's JSON Schema as fields of a form.
 
-/// Parameters without a field, which are written as JSON.
+/// Parameters without a field, which are written as JSON: drives, the worn bore, and what is kept of a job.
 export const writtenAsJson = ["crank_drive", "rod_drive", "wear_depth_um", "keep"];
 
 const ofRpsup =

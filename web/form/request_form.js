@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Base of the forms of sweeps, searches and wear studies: fields of parameters, request, and refusals of the service.
+// Base of the forms of sweeps and studies: fields of parameters, request, and refusals of the service.
 import { Refusal } from "/core/api.js";
 import { choice, freshId, h, notify } from "/core/dom.js";
 import { nameOf } from "/core/format.js";
@@ -136,7 +136,8 @@ export class RequestForm {
   }
 
   described() {
-    return h("details", { open: this.state.described !== "" }, h("summary", {}, "Other drives and worn bore"),
+    return h("details", { open: this.state.described !== "" },
+      h("summary", {}, "Other drives, worn bore and kept results"),
       ...this.json("described", `JSON object of ${writtenAsJson.join(", ")}`));
   }
 
