@@ -60,7 +60,9 @@ test("faults are listed with their places, and the last position stays while the
   await unclear.click();
   assert.equal(await text(page).evaluate((area) => area.value.slice(0, area.selectionStart).split("\n").at(-1).trim()), '"from"');
   assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
-  await change(page, '"from" "crank"', '"from": "crank"');
+  await change(page, '"from" "crank"', '"from": 01');
+  await page.getByRole("button", { name: /“,” is expected or “}”$/ }).waitFor();
+  await change(page, '"from": 01', '"from": "crank"');
   await page.getByText(/^Assembled at t = 0/).waitFor();
   assert.equal(await page.getByRole("list", { name: "Faults of the linkage" }).count(), 0);
   const before = await pixels(page);

@@ -7,7 +7,7 @@
  * @typedef {{ places: Map<string, Place>, fault: { at: number, detail: string } | null }} Places
  */
 
-const literal = /-?\d+(\.\d+)?([eE][+-]?\d+)?|true|false|null/y;
+const literal = /-?(?:0|[1-9]\d*)(\.\d+)?([eE][+-]?\d+)?|true|false|null/y;
 const string = /"(?:[^"\\\p{Cc}]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4}))*"/uy;
 
 /// A key as a part of a JSON pointer.
