@@ -5,7 +5,7 @@ import { h } from "/core/dom.js";
 import { number, pointOf, titleOf } from "/core/format.js";
 
 /// The values of some axes in a row, in words: "rigid, 10 rad/s".
-export const where = (row, axes) => axes.filter((axis) => row[axis] !== undefined)
+export const where = (row, axes) => axes.filter((axis) => row[axis] !== undefined && row[axis] !== null)
   .map((axis) => pointOf(axis, row[axis])).join(", ");
 
 export const valueAxis = (title, more = {}) =>
@@ -40,5 +40,4 @@ export function table(label, rows, columns, look = null) {
 }
 
 export const axisColumns = (axes) =>
-  axes.map((axis) => [titleOf(axis),
-    (row) => (typeof row[axis] === "number" ? number(row[axis], 6) : String(row[axis]))]);
+  axes.map((axis) => [titleOf(axis), (row) => number(row[axis], 6)]);

@@ -88,10 +88,10 @@ export function titleOf(column, unit = unitOf(column)) {
 }
 
 /// A value of an axis, short: "10 rad/s", "rigid", "rigid elements 4".
-/** @param {string} axis  @param {number | string} value */
+/** @param {string} axis  @param {number | string | null | undefined} value */
 export function pointOf(axis, value) {
   const unit = unitOf(axis);
-  if (typeof value !== "number") return String(value);
+  if (typeof value !== "number") return String(value ?? "–");
   return unit ? `${number(value, 6)} ${unit}` : `${nameOf(axis).toLowerCase()} ${number(value, 6)}`;
 }
 
