@@ -77,6 +77,15 @@ export function keepFocus(element, fill) {
   if (again !== document.activeElement) again?.focus({ preventScroll: true });
 }
 
+/// Table in a card with a name. @param head  text and class of each heading
+/** @param {string} title  @param {string} help  @param {string[][]} head  @param {HTMLElement[]} rows */
+export function tableCard(title, help, head, rows) {
+  return h("section", { class: "card" }, h("h2", {}, title), h("p", { class: "quiet small" }, help),
+    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title }, h("table", {},
+      h("thead", {}, h("tr", {}, head.map(([text, look]) => h("th", { scope: "col", class: look }, text)))),
+      h("tbody", {}, rows))));
+}
+
 /// A small square of a colour, for legends.
 /** @param {string} colour */
 export function swatch(colour) {

@@ -15,6 +15,10 @@ const lineColours = {
   dark: ["#56b4e9", "#e69f00", "#2fbf94", "#cc79a7", "#f0e442", "#e2703a", "#b9c4cf"],
 };
 
+/// Frame of what is selected, and its ring.
+export const frame = { borderColor: "#e6007a", borderWidth: 3 };
+export const ring = { color: "transparent", ...frame };
+
 const changed = new EventTarget();
 
 /** @type {(id: string) => HTMLSelectElement} */

@@ -3,7 +3,7 @@
 // time.
 import { choice, h } from "/core/dom.js";
 import { nameOf, number, unitOf } from "/core/format.js";
-import { itemRow, itemText, listFields } from "/form/list_fields.js";
+import { itemRow, itemText, listFields, textOf } from "/form/list_fields.js";
 import { addNumber } from "/form/study_form.js";
 
 /**
@@ -12,7 +12,6 @@ import { addNumber } from "/form/study_form.js";
  *   time_shift_s: string, channels: ChannelEntry[] }} Entry
  */
 
-const textOf = (value) => (value === undefined ? "" : String(value));
 const windowsText = (windows = []) => windows.map(([from, to]) => `${from} to ${to}`).join("; ");
 
 /// Windows of a text such as "2 to 4.5; 5 to 6"; null if it is none.

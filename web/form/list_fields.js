@@ -5,6 +5,10 @@ import { h } from "/core/dom.js";
 
 /** @typedef {import("/form/request_form.js").RequestForm} RequestForm */
 
+/// Text of a value in a form; empty if there is none.
+/** @param {unknown} value */
+export const textOf = (value) => (value === undefined ? "" : String(value));
+
 /// A list with a heading. @param draw  elements of an item  @param noun  for an item
 /**
  * @template Item

@@ -4,7 +4,7 @@ import { optimisations } from "/core/api.js";
 import { choice, freshId, h } from "/core/dom.js";
 import { plural, titleOf, unitOf } from "/core/format.js";
 import { countJobs } from "/form/request.js";
-import { itemRow, itemText, listFields } from "/form/list_fields.js";
+import { itemRow, itemText, listFields, textOf } from "/form/list_fields.js";
 import { addNumber, StudyForm } from "/form/study_form.js";
 import { addVariables, readVariables, rowOfVariable, variableFields } from "/form/variable_fields.js";
 
@@ -15,7 +15,6 @@ const goals = { minimise: "minimise", maximise: "maximise" };
 const methods = { cma_es: "CMA-ES", nelder_mead: "Nelder-Mead, local", bobyqa: "BOBYQA, local",
   nsga2: "NSGA-II, of several objectives" };
 const sides = [["maximum", "at most"], ["minimum", "at least"]];
-const textOf = (value) => (value === undefined ? "" : String(value));
 
 export class OptimisationForm extends StudyForm {
   static api = optimisations;

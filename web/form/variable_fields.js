@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Variables of fits and optimisations: the parameters that are looked for, each between two bounds.
 import { choice, freshId, h } from "/core/dom.js";
-import { itemRow, itemText, listFields } from "/form/list_fields.js";
+import { itemRow, itemText, listFields, textOf } from "/form/list_fields.js";
 import { addNumber } from "/form/study_form.js";
 import { titleOfVariable } from "/study/variables.js";
 
 /** @typedef {{ path: string, from: string, to: string, start: string, scale: string }} VariableEntry */
-
-const textOf = (value) => (value === undefined ? "" : String(value));
 
 /// Contents of the form for the variables of a request.
 /** @param {Record<string, Api.Schemas["Variable"]>} over  @returns {VariableEntry[]} */

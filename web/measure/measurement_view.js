@@ -2,7 +2,7 @@
 // One measurement: its signals run by run, and what is known of sensors and runs.
 import { deleteMeasurement, findMeasurement, fits, measurementDataUrl } from "/core/api.js";
 import { confirmed } from "/core/dialog.js";
-import { choice, h } from "/core/dom.js";
+import { choice, h, tableCard } from "/core/dom.js";
 import { bytes, moment, number, plural, titleOf } from "/core/format.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { lineColour } from "/core/theme.js";
@@ -105,14 +105,6 @@ function plotsOf(measurement, run, signal) {
       () => lineColour(index));
     return plotCard(titleOf(name), { traces: trace ? [trace] : [], times, height: 220, signal });
   });
-}
-
-/** @param {string} title  @param {string} help  @param {string[][]} head  @param {HTMLElement[]} rows */
-function tableCard(title, help, head, rows) {
-  return h("section", { class: "card" }, h("h2", {}, title), h("p", { class: "quiet small" }, help),
-    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title }, h("table", {},
-      h("thead", {}, h("tr", {}, head.map(([text, look]) => h("th", { scope: "col", class: look }, text)))),
-      h("tbody", {}, rows))));
 }
 
 const cell = (value) => h("td", { class: "number" }, number(value));

@@ -2,7 +2,7 @@
 // Candidates of an optimisation over two of their numbers, with the Pareto front; a click selects.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { number } from "/core/format.js";
-import { colour, lineColour } from "/core/theme.js";
+import { colour, lineColour, ring } from "/core/theme.js";
 import { titleOfMetric } from "/study/optimisation_answer.js";
 import { fittedAxis } from "/study/span.js";
 
@@ -52,7 +52,7 @@ function optionOf(view) {
         step: goal === "maximise" ? "start" : "end",
         color: lineColour(0), data: front.map((row) => [row[x], row[y]]) }] : []),
       { type: "scatter", name: "selected", silent: true, symbolSize: 17, z: 5, data: dataOf(chosen),
-        itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 } },
+        itemStyle: ring },
     ].filter(({ data }) => data.length > 0),
   };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The answer of a fit: in sentences, as errors of its signals, and as the correlation of its parameters.
-import { h } from "/core/dom.js";
+import { h, tableCard } from "/core/dom.js";
 import { number, plural, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { writeOverlays } from "/run/measured.js";
@@ -84,15 +84,6 @@ export function lostOf(points) {
   return told ? [h("p", { class: "trouble" }, `Points without a value: ${told}.`)] : [];
 }
 
-/// Table in a card with a name.
-function tableCard(title, help, head, rows) {
-  return h("section", { class: "card" }, h("h2", {}, title), h("p", { class: "quiet small" }, help),
-    h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
-      h("table", {}, h("thead", {}, h("tr", {}, head)), h("tbody", {}, rows))));
-}
-
-const heading = (text, look = "number") => h("th", { scope: "col", class: look }, text);
-
 /// Errors of the signals, fitted and held back; null before there are any.
 /** @param {Api.Fit} fit */
 export function errorsCard({ signals, measurement_ids: measurements }) {
@@ -106,9 +97,9 @@ export function errorsCard({ signals, measurement_ids: measurements }) {
       : [])));
   return tableCard("Prediction errors", "RMS of predicted less measured, in the signal's unit and over the "
     + "RMS of the "
-    + "measured signal about its mean.", [heading("Signal", ""), heading("Samples", ""), heading("Number"),
-    heading("RMS"), heading("Relative RMS [%]"), heading("Measured peak"), heading("Predicted peak"),
-    heading("Unit", "")], rows);
+    + "measured signal about its mean.", [["Signal"], ["Samples"],
+    ...["Number", "RMS", "Relative RMS [%]", "Measured peak", "Predicted peak"]
+      .map((text) => [text, "number"]), ["Unit"]], rows);
 }
 
 /// Correlation of the parameters; null of one parameter, and before it is known.
@@ -122,5 +113,5 @@ export function correlationCard({ correlation, parameters }) {
       number(value, 2)))));
   return tableCard("Correlation", `Parameters with a correlation beyond ±${strong}, which are marked, do `
     + `nearly the same `
-    + "to the signals.", [heading("Parameter", ""), ...names.map((name) => heading(name))], rows);
+    + "to the signals.", [["Parameter"], ...names.map((name) => [name, "number"])], rows);
 }

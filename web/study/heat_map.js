@@ -2,7 +2,7 @@
 // A metric over two axes, one panel for each value of a third.
 import { axisLook, makeChart, nothingYet } from "/core/charts.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
-import { colour, palette } from "/core/theme.js";
+import { colour, frame, palette } from "/core/theme.js";
 import { averagedAxes, groupBy, valuesOf } from "/study/data.js";
 import { whyEmpty } from "/study/missing.js";
 import { extremesOf, widened } from "/study/span.js";
@@ -85,7 +85,7 @@ function metricTitle(sweep, groups, omitted) {
 function cellOf(group, view, xs, ys, selection) {
   const chosen = group.jobs.some((job) => selection.has(job));
   const value = [xs.get(group.values[0]), view.y ? ys.get(group.values[1]) : 0, group.mean];
-  return chosen ? { value, itemStyle: { borderColor: "#e6007a", borderWidth: 3 } } : value;
+  return chosen ? { value, itemStyle: frame } : value;
 }
 
 /** @param {Group} group  @param {SweepPage["view"]} view */

@@ -4,6 +4,7 @@
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, titleOf, unitOf } from "/core/format.js";
 import { colour, lineColour } from "/core/theme.js";
+import { bars } from "/analysis/parts.js";
 import { fallsShown, hasReplicates } from "/study/limit_curve.js";
 
 /**
@@ -33,7 +34,8 @@ function optionOf(search, limit) {
       ...axisLook(), axisLabel: { color: colour("text"), showMinLabel: false, showMaxLabel: false,
         formatter: (value) => number(value) }, max: ({ max }) => Math.max(max, search.bound),
         min: ({ min }) => Math.min(min, search.bound) },
-    series: [spread(points),
+    series: [{ ...bars(lineColour(0), points.map(({ value, min, max }) => [value, min, max])),
+      silent: false },
       { type: "line", color: lineColour(0), symbol: "circle", symbolSize: 8,
         data: points.map((point) => [point.value, point.quantile]), z: 3,
       markArea: { silent: true, data: fallen },
@@ -42,18 +44,6 @@ function optionOf(search, limit) {
         data: [{ yAxis: search.bound, name: "bound" },
           ...(limit.verdict === "found" ? [{ xAxis: limit.limit, name: "limit" }] : [])] } }],
   };
-}
-
-/** @param {Api.Schemas["SearchPoint"][]} points */
-function spread(points) {
-  return { type: "custom", color: lineColour(0), data: points.map((point) => [point.value, point.min, point.max]),
-    encode: { x: 0, y: [1, 2] },
-    renderItem: (_, api) => {
-      const [x, low] = api.coord([api.value(0), api.value(1)]);
-      const [, high] = api.coord([api.value(0), api.value(2)]);
-      const style = { stroke: api.visual("color"), lineWidth: 2, opacity: 0.5 };
-      return { type: "line", shape: { x1: x, y1: low, x2: x, y2: high }, style };
-    } };
 }
 
 /** @param {Api.Search} search  @param {Api.Schemas["SearchPoint"]} point */

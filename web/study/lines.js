@@ -3,7 +3,7 @@
 // of what lies together. Numbers are told apart by a colour scale, words by line style.
 import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
-import { colour } from "/core/theme.js";
+import { colour, ring } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
 import { curvesOf, drawnCurves, looksOf, mostCurves, nameOfCurve, rolesOf } from "/study/curves.js";
 import { averagedAxes, onceFor, valuesOf } from "/study/data.js";
@@ -182,7 +182,7 @@ function chosenSeries(line, index, at, selection) {
   return [{ id: `chosen:${index}`, name: line.label, type: "scatter", silent: true, symbol: "circle",
     symbolSize: 15,
     z: 5,
-    itemStyle: { color: "transparent", borderColor: "#e6007a", borderWidth: 3 },
+    itemStyle: ring,
     data: chosen.map((group) => [at(group.values.at(-1)), group.mean]) }];
 }
 

@@ -3,7 +3,7 @@
 import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { nameOf, pointOf, titleOf } from "/core/format.js";
-import { colour, lineColour, linePalette, paletteColour } from "/core/theme.js";
+import { colour, lineColour, linePalette, paletteColour, ring } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
 import { scaleOf } from "/study/curves.js";
 import { hasScale, none, valueOf, valuesOf } from "/study/data.js";
@@ -71,8 +71,7 @@ function optionOf(sweep, width) {
       data: group.rows.map(isScale && !isDense && spansDecades(numbers)
         ? (row) => point(row).with(2, Math.log10(row[c])) : point) })),
     { type: "scatter", name: "selected", silent: true, symbolSize: 15, z: 5, data: chosen.map(point),
-      itemStyle: { color: "transparent", borderColor: "#e6007a",
-        borderWidth: 3 } }].filter(({ data }) => data.length > 0),
+      itemStyle: ring }].filter(({ data }) => data.length > 0),
   };
 }
 
