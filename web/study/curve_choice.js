@@ -36,8 +36,8 @@ export function curveChoice(sweep, changed) {
   }
 
   function draw() {
-    const { own, drawn, most } = curvesOfSweep(sweep);
-    element.hidden = own.length <= 1 || (own.length <= most && sweep.view.curves === null && own.length < 3);
+    const { own, drawn } = curvesOfSweep(sweep);
+    element.hidden = own.length < (sweep.view.curves === null ? 3 : 2);
     summary.textContent = `Curves: ${drawn.length} of ${own.length.toLocaleString("en")}`;
     if (element.open) drawList();
   }
