@@ -98,6 +98,14 @@ class SendsAgain(unittest.TestCase):
         self.assertEqual((caught.exception.status, len(server.requests)), (503, 1))
 
 
+class Waits(unittest.TestCase):
+    def test_no_longer_than_the_client_waits_for_an_answer(self):
+        for timeout_s, wanted in ((90.0, "wait=30"), (5.0, "wait=2"), (1.0, None)):
+            with self.subTest(timeout_s), FakeServer(http(200, {"state": "succeeded"})) as server:
+                server.client(timeout_s=timeout_s).sweep("swp_1").wait(progress=False)
+                self.assertEqual(server.requests[0][1].get("Prefer"), wanted)
+
+
 class Refuses(unittest.TestCase):
     def test_a_service_that_is_not_there(self):
         start = time.monotonic()

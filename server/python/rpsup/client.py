@@ -49,6 +49,11 @@ class Client:
         """Address of the service."""
         return self._transport.url
 
+    @property
+    def timeout_s(self) -> float:
+        """Longest time without a sign of life in an answer, [s]."""
+        return self._transport.timeout_s
+
     # Studies and jobs.
 
     def submit(self, request: Request = None, **given: Any) -> Sweep:

@@ -59,7 +59,8 @@ class Work:
         end = None if timeout_s is None else time.monotonic() + timeout_s
         with Bar(progress) as bar:
             while True:
-                poll_s = POLL_S if bar.is_drawn else LONG_POLL_S
+                # The service sends nothing while it waits: half of the timeout leaves time for its answer.
+                poll_s = min(POLL_S if bar.is_drawn else LONG_POLL_S, 0.5 * self.client.timeout_s)
                 if end is not None:
                     poll_s = min(poll_s, max(0.0, end - time.monotonic()))
                 asked = time.monotonic()

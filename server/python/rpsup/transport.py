@@ -72,7 +72,7 @@ class Transport:
         self.url = f"{parts.scheme}://{parts.netloc}{parts.path}".rstrip("/")
         self._parts = parts
         self._token = token
-        self._timeout_s = timeout_s
+        self.timeout_s = timeout_s
         self._patience_s = patience_s
 
     def send(self, method: str, path: str, query: Query = None, body: Body = None, *,
@@ -100,7 +100,7 @@ class Transport:
         while True:
             refusal: Error
             try:
-                answer = self._send_once(method, target, data, sent, file, timeout_s or self._timeout_s)
+                answer = self._send_once(method, target, data, sent, file, timeout_s or self.timeout_s)
                 if answer.status < 300:
                     return answer
                 if method == "DELETE" and is_repeated and answer.status == 404:
