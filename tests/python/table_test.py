@@ -149,7 +149,16 @@ class Progress(unittest.TestCase):
 
     def test_says_how_far_a_study_is(self):
         self.assertEqual(progress.text_of(self.STATUS, 10), "[#####-----] 4 of 8 jobs, 1 failed, 12 s left")
-        self.assertEqual(progress.text_of({"counts": None, "progress": None}, 4), "[----] 0 of 0 jobs")
+        self.assertEqual(progress.text_of({"counts": {}, "progress": 0.5}, 4), "[##--] 0 of 0 jobs")
+        self.assertEqual(progress.text_of({"state": "running", "metrics": None}), "running")  # a job
+
+    def test_stays_in_one_line_of_a_narrow_terminal(self):
+        said = io.StringIO()
+        with mock.patch.object(progress.shutil, "get_terminal_size", lambda: os.terminal_size((20, 5))):
+            with contextlib.redirect_stderr(said), progress.Bar(True) as bar:
+                bar.draw({"counts": {"total": 100, "succeeded": 99}})
+                bar.draw({"state": "succeeded"})
+        self.assertEqual([len(line) for line in said.getvalue().rstrip("\n").split("\r")], [0, 19, 19])
 
     def test_draws_on_terminals_only_unless_it_is_asked_to(self):
         for wanted, is_terminal, is_drawn in (

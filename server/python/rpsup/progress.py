@@ -31,11 +31,12 @@ class Bar:
     def draw(self, status: Mapping[str, Any]) -> None:
         """Draws the bar of a status of the service, with `counts`, `progress` and `eta_s` if known."""
         text = text_of(status)
+        if self._on_terminal:
+            text = text[:shutil.get_terminal_size().columns - 1]
         if text == self._drawn or not self.is_drawn:
             return
         if self._on_terminal:
-            shown = text[:shutil.get_terminal_size().columns - 1]
-            print(f"\r{shown}{' ' * (len(self._drawn) - len(shown))}", end="", file=sys.stderr, flush=True)
+            print(f"\r{text.ljust(len(self._drawn))}", end="", file=sys.stderr, flush=True)
         elif self._handle is None:
             display = importlib.import_module("IPython.display").display  # there in every notebook
             self._handle = display(_Plain(text), display_id=True)
@@ -55,11 +56,13 @@ class _Plain:
 
 
 def text_of(status: Mapping[str, Any], width: int = 30) -> str:
-    """Line for a status: "[#####-----] 4 of 8 jobs, 1 failed, 12 s left"."""
+    """Line for a status: "[#####-----] 4 of 8 jobs, 1 failed, 12 s left", or "running" for a job's."""
     counts = status.get("counts") or {}
+    part = status.get("progress")
+    if not counts and part is None:
+        return str(status.get("state", ""))
     total = counts.get("total", 0)
     ended = sum(counts.get(state, 0) for state in ("succeeded", "failed", "cancelled"))
-    part = status.get("progress")
     if part is None:
         part = ended / total if total else 0.0
     full = round(width * min(max(part, 0.0), 1.0))
