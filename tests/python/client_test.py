@@ -291,6 +291,8 @@ class Studies(WithProgram):
         self.assertEqual(measured.data()["slider_acceleration_m_s2"].tolist(), [0.5, 1])
         with self.assertRaisesRegex(ValueError, "csv, .npz or .json"):
             self.client.measure("bench.txt")
+        with self.assertRaisesRegex(ValueError, "no comma in its name: 'acc, x'"):
+            self.client.measure("bench.csv", channels={"acc, x": "slider_acceleration_m_s2"})
 
 
 if __name__ == "__main__":

@@ -110,7 +110,8 @@ class Client:
             source: file that ends with .csv, .npz or .json, or a request as a dict.
             name: name for people; that of the file if left out. Of CSV and NPZ, as are the following ones.
             time: column of the time, [s].
-            channels: {column: channel}; all other columns under their own names if left out.
+            channels: {column: channel}, of columns without a comma in their names; all other columns under
+                their own names if left out.
             sensors: {channel: {"sign": -1, "gain": 9.81, "offset": 0, "delay_s": 2e-4, "low_pass_hz": 2000}}.
             parameters: those that are known of the run.
         """
@@ -123,6 +124,9 @@ class Client:
             raise ValueError(f"the name of a measurement's file must end with .csv, .npz or .json: {path}")
         query: Dict[str, Any] = {}
         if ending != ".json":
+            for column in channels or {}:
+                if "," in column:
+                    raise ValueError(f"a column that is chosen must have no comma in its name: {column!r}")
             pairs = [f"{column}:{channel}" for column, channel in (channels or {}).items()]
             query = {"name": name or os.path.basename(path), "time": time, "channels": pairs or None,
                      "sensors": json.dumps(sensors) if sensors else None,
