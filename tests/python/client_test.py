@@ -61,6 +61,8 @@ class Sweeps(WithProgram):
         self.assertEqual(requests[0], requests[1])
         self.assertEqual(requests[0], requests[2])
         self.assertEqual(requests[3]["sweep"], {"clearance_mm": [0]})
+        alone = self.client.submit(keep="metrics", clearance_mm=[0.1], **TINY)
+        self.assertEqual(alone.status()["request"]["keep"], "metrics")
         ranged = self.client.submit(clearance_mm={"from": 0.1, "to": 0.3, "count": 3}, **TINY)
         self.assertEqual([row["clearance_mm"] for row in ranged.wait().rows()], [0.1, 0.2, 0.3])
         with self.assertRaises(TypeError):

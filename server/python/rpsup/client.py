@@ -18,7 +18,7 @@ from .table import DataFrame, Tables, find_numpy, frame, load_pandas
 from .transport import Again, Body, Query, Transport
 
 DEFAULT_URL = "http://127.0.0.1:8080"
-REQUEST_KEYS = ("name", "cases", "design", "replicates", "priority", "executor", "reuse")
+REQUEST_KEYS = ("name", "cases", "design", "replicates", "priority", "executor", "keep", "reuse")
 MEDIA_TYPES = {".csv": "text/csv", ".npz": "application/x-npz", ".json": "application/json"}
 
 Request = Union[Mapping[str, Any], str, None]
@@ -62,8 +62,8 @@ class Client:
         Args:
             request: the request as the service takes it, a dict or JSON text.
             given: other keys of a request (name, parameters, sweep, cases, design, replicates, priority,
-                executor, reuse), or parameters by name: a list, an array or a range {"from", "to", "count"}
-                is an axis, anything else is shared by all jobs. `submit(clearance_mm=[0, 0.25],
+                executor, keep, reuse), or parameters by name: a list, an array or a range {"from", "to",
+                "count"} is an axis, anything else is shared by all jobs. `submit(clearance_mm=[0, 0.25],
                 duration_s=2)` has two jobs of 2 s.
         Raises:
             Error: the request has faults; `faults` has all of them. Nothing is stored then.
