@@ -291,6 +291,7 @@ class Studies(WithProgram):
             }
         )
         self.assertEqual(measured.data()["slider_acceleration_m_s2"].tolist(), [0.5, 1])
+        self.assertIn(measured.id, [each.id for each in self.client.newest(rpsup.Measurement)])
         with self.assertRaisesRegex(ValueError, "csv, .npz or .json"):
             self.client.measure("bench.txt")
         with self.assertRaisesRegex(ValueError, "no comma in its name: 'acc, x'"):

@@ -11,8 +11,8 @@ from typing import Any, Dict, List, Mapping, Optional, Type, TypeVar, Union
 
 from .errors import BadAnswer
 from .program import Program
-from .study import (Fit, Job, Measurement, Names, Number, Optimisation, Row, Search, Text, WearStudy, Whole,
-                    Work)
+from .study import (Fit, Job, Measurement, Names, Number, Optimisation, Resource, Row, Search, Text,
+                    WearStudy, Whole, Work)
 from .sweep import Sweep
 from .table import DataFrame, Tables, find_numpy, frame, load_pandas
 from .transport import Again, Body, Query, Transport
@@ -22,7 +22,7 @@ REQUEST_KEYS = ("name", "cases", "design", "replicates", "priority", "executor",
 MEDIA_TYPES = {".csv": "text/csv", ".npz": "application/x-npz", ".json": "application/json"}
 
 Request = Union[Mapping[str, Any], str, None]
-AWork = TypeVar("AWork", bound=Work)
+AResource = TypeVar("AResource", bound=Resource)
 
 
 class Client:
@@ -145,12 +145,12 @@ class Client:
         """Job by its id, as rows of results name it."""
         return Job(self, id)
 
-    def of(self, kind: Type[AWork], id: str) -> AWork:
-        """Study or job of an earlier session: `of(rpsup.Search, id)`."""
+    def of(self, kind: Type[AResource], id: str) -> AResource:
+        """Study, job or measurement of an earlier session: `of(rpsup.Search, id)`."""
         return kind(self, id)
 
-    def newest(self, kind: Type[AWork], limit: int = 50, state: Text = None) -> List[AWork]:
-        """Newest studies or jobs of a kind, the newest first: `newest(rpsup.Sweep, 1)`."""
+    def newest(self, kind: Type[AResource], limit: int = 50, state: Text = None) -> List[AResource]:
+        """Newest of a kind, the newest first: `newest(rpsup.Sweep, 1)`. Measurements have no state."""
         page = self.get(kind.route, {"limit": limit, "state": state})
         return [kind(self, item["id"]) for item in page["items"]]
 
@@ -236,7 +236,7 @@ class Client:
         table.attrs["units"] = {name: unit for name, unit in units.items() if unit}
         return table
 
-    def _create(self, kind: Type[AWork], request: Mapping[str, Any]) -> AWork:
+    def _create(self, kind: Type[AResource], request: Mapping[str, Any]) -> AResource:
         answer = self._transport.send("POST", kind.route, body=request, again=Again.BY_KEY).json()
         try:
             return kind(self, answer["id"])

@@ -25,8 +25,8 @@ LONG_POLL_S = 30.0  # without a bar
 ENDS = ("succeeded", "failed", "cancelled")
 
 
-class Work:
-    """Something that the service computes, known by its id."""
+class Resource:
+    """Something that the service has, known by its id."""
 
     route = ""  # "/v1/sweeps"
 
@@ -41,6 +41,10 @@ class Work:
     def path(self) -> str:
         """Path of the service: "/v1/sweeps/swp_…"."""
         return f"{self.route}/{self.id}"
+
+
+class Work(Resource):
+    """Something that the service computes."""
 
     def status(self) -> Row:
         """Everything that the service says about it: `state`, `counts`, `progress`, `request`, …"""
@@ -227,20 +231,10 @@ class Fit(Study):
         return self._table("signals", query)
 
 
-class Measurement:
+class Measurement(Resource):
     """Measured signals that the service keeps."""
 
-    def __init__(self, client: Client, id: str) -> None:
-        self.client = client
-        self.id = id
-
-    def __repr__(self) -> str:
-        return f"<Measurement {self.id}>"
-
-    @property
-    def path(self) -> str:
-        """Path of the service."""
-        return f"/v1/measurements/{self.id}"
+    route = "/v1/measurements"
 
     def status(self) -> Row:
         """Channels, runs and their statistics."""
