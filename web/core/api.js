@@ -62,7 +62,7 @@ const unanswered = new Map();
 
 const freshKey = () => crypto.getRandomValues(new Uint32Array(4)).join("-");
 
-/// What tells the body of a request from others.
+/// Text that tells the body of a request from others.
 /** @param {any} body */
 function markOf(body) {
   if (body instanceof File) return `${body.name} ${body.size} ${body.lastModified}`;

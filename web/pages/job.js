@@ -30,7 +30,7 @@ const isFormat = { csv: true, json: true, npz: true };
 const formats = /** @type {Format[]} */ (Object.keys(isFormat));
 /** @type {(state: Api.State) => boolean} */
 const isWaiting = (state) => state === "queued" || state === "running";
-/// Whether a job has what plots need: it has succeeded and stores its trajectory.
+/// Jobs with a trajectory, which plots need: they have succeeded and store it.
 /** @type {(job: Api.Job) => boolean} */
 const hasTrajectory = ({ state, parameters: { keep } }) => state === "succeeded" && keep !== "metrics";
 const sliderAcceleration = "slider_acceleration_m_s2";
