@@ -57,7 +57,7 @@ class IdealPeakSearch {
       scale_ = 0.0;
       while (last_.t < piece_end_)
         if (!take_interval()) return false;
-      // What follows the end of the search is outside of it.
+      // A jump at the end of the search is outside of it.
       const bool ends = searches_ && last_.t >= to;
       if (piece_.is_over(last_.t) && !ends && !jump()) return false;
     }

@@ -23,6 +23,7 @@ enum class ContactGeometry {
 
 /// A joint with clearance, by default a revolute one: a journal of length L_b in a bearing, contact on the
 /// bore and on the two faces. The second part of every joint is called the journal, the first the bearing.
+/// The paper's joint has other numbers: see RpsupParameters.
 struct ClearanceParameters {
   ContactGeometry geometry = ContactGeometry::kJournalInBore;
   double r_b = 5e-3;               ///< radius of bearing or socket, [m]

@@ -145,7 +145,7 @@ class JobPage {
       failure].filter(Boolean);
   }
 
-  /// What is laid over the job, and which jobs cannot be.
+  /// Overlaid jobs and measurements, and jobs that cannot be overlaid.
   overlaid() {
     const ends = this.omitted.map((id) => `…${id.slice(-5)}`).join(", ");
     return [this.jobs.length > 1 ? ` · overlaid with ${this.jobs.length - 1} more` : "",

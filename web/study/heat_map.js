@@ -67,7 +67,7 @@ function planOf(sweep, width) {
   } };
 }
 
-/// How many values have a panel; empty if all have one.
+/// Count of the values with a panel; empty if all have one.
 /** @param {SweepPage["view"]} view  @param {any[]} panels  @param {any[]} all */
 const omittedText = (view, panels, all) => (panels.length === all.length ? ""
   : `${panels.length} of ${all.length} values of ${nameOf(view.panel).toLowerCase()}`);
