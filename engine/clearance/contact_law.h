@@ -9,8 +9,8 @@
 namespace engine {
 inline namespace RPSUP_INSTRUCTION_SET {
 
-/// The journal as seen from the bearing: frame {j} in frame {b}, all in {b}. z is both parts' axis.
-/// P: what depends on positions; V: what depends on velocities as well.
+/// JournalMotion of numbers of any type: the journal as seen from the bearing, frame {j} in frame {b}, all in
+/// {b}. z is both parts' axis. P: what depends on positions; V: what depends on velocities as well.
 template <typename P, typename V>
 struct RelativeMotion {
   Mat3<P> R;        ///< R_bj

@@ -44,7 +44,7 @@ class DrivePiece {
   [[nodiscard]] double end() const { return end_; }
 
   /// @returns whether a step that ends at t has come to the jump, but for rounding
-  [[nodiscard]] bool is_over(double t) const { return t >= end_ * (1.0 - kSameInstant); }
+  [[nodiscard]] bool is_over(double t) const { return t >= end_ * (1.0 - kRounding); }
 
   /// Goes on to the piece behind this one's end.
   void advance() {
@@ -59,7 +59,7 @@ class DrivePiece {
  private:
   static constexpr double kBeside = 1e-14;  ///< of the time: more than the rounding of a jump's instant
   /// Of the time: grids and corners count such instants as one.
-  static constexpr double kSameInstant = 2e-12;
+  static constexpr double kRounding = 2e-12;
 
   void calc_end(double t) {
     end_ = std::numeric_limits<double>::infinity();
