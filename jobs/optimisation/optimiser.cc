@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "jobs/requests/expand.h"
@@ -302,10 +301,8 @@ bool Optimiser::add_candidate(const std::vector<double>& values, NextCases& next
 }
 
 std::size_t Optimiser::count_jobs(const ordered_json& one_case) {
-  ordered_json sweep = common_sweep_;
-  sweep["cases"] = ordered_json::array({one_case});
   try {
-    return plan_sweep(sweep, std::numeric_limits<std::size_t>::max()).jobs.size();
+    return plan_cases(common_sweep_, ordered_json::array({one_case})).size();
   } catch (const InvalidRequest& invalid) {
     if (!first_invalid_) first_invalid_ = invalid;
     return 0;

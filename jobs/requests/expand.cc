@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -249,16 +250,7 @@ void add_jobs(const json& completed, const SweepRequest& sweep, const json& swep
   }
 }
 
-}  // namespace
-
-double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation) {
-  if (k == 0) return 1.0;
-  const double u = static_cast<double>(splitmix64(seed, k) >> 11U) * 0x1p-52 - 1.0;
-  return 1.0 + perturbation * u;
-}
-
-SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
-  const SweepRequest sweep = parse_sweep_request(request, max_jobs);
+SweepPlan plan_points(const SweepRequest& sweep, std::size_t max_jobs) {
   SweepPlan plan{.name = sweep.name, .swept = sweep.swept, .replicated = sweep.replicates.requested,
                  .reuse = sweep.reuse,
                  .priority = sweep.priority, .executor = sweep.executor, .jobs = {}};
@@ -279,12 +271,32 @@ SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs
     if (found.empty()) add_jobs(completed, sweep, swept, max_jobs, budget, plan);
   } while (position.advance(sweep));
   faults.throw_if_any();
+  return plan;
+}
+
+}  // namespace
+
+double replicate_factor(std::uint64_t seed, std::uint64_t k, double perturbation) {
+  if (k == 0) return 1.0;
+  const double u = static_cast<double>(splitmix64(seed, k) >> 11U) * 0x1p-52 - 1.0;
+  return 1.0 + perturbation * u;
+}
+
+SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs) {
+  const SweepRequest sweep = parse_sweep_request(request, max_jobs);
+  SweepPlan plan = plan_points(sweep, max_jobs);
   const bool replicates_some =
       std::ranges::any_of(plan.jobs, [](const PlannedJob& job) { return job.replicate.value_or(0) > 0; });
   if (!sweep.replicates.only.empty() && sweep.replicates.count > 1 && !replicates_some)
     throw InvalidRequest(std::vector<Fault>{
         {"/replicates/only", "must name values that a set of the sweep has; none has all of these"}});
   return plan;
+}
+
+std::vector<PlannedJob> plan_cases(nlohmann::ordered_json common, const nlohmann::ordered_json& cases) {
+  common["cases"] = cases;
+  constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+  return plan_points(parse_sweep_request(common, kNoLimit), kNoLimit).jobs;
 }
 
 PlannedJob plan_job(const json& parameters) {

@@ -37,6 +37,11 @@ struct SweepPlan {
 /// @throws InvalidRequest with every fault; one that several points have is told once, with the first of them
 [[nodiscard]] SweepPlan plan_sweep(const nlohmann::ordered_json& request, std::size_t max_jobs);
 
+/// Jobs of cases that a study adds to its sweep, one by one: a case need not have the values that replicates
+/// are for. @param common  the sweep without cases
+[[nodiscard]] std::vector<PlannedJob> plan_cases(nlohmann::ordered_json common,
+                                                 const nlohmann::ordered_json& cases);
+
 /// @throws InvalidRequest with every fault
 [[nodiscard]] PlannedJob plan_job(const nlohmann::json& parameters);
 

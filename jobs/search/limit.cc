@@ -28,8 +28,9 @@ constexpr double kNarrowestPart = 4.0 * std::numeric_limits<double>::epsilon();
 double largest_width(const SearchInterval& interval) { return interval.tolerance * (1.0 + 1e-9); }
 
 bool is_narrow(const SearchInterval& interval, double a, double b) {
-  const double narrowest = kNarrowestPart * std::max(std::abs(a), std::abs(b));
-  if (std::abs(b - a) <= std::max(largest_width(interval), narrowest)) return true;
+  const double width = interval.in_ratios ? std::abs(std::log(b / a)) : std::abs(b - a);
+  const double scale = interval.in_ratios ? 1.0 : std::max(std::abs(a), std::abs(b));
+  if (width <= std::max(largest_width(interval), kNarrowestPart * scale)) return true;
   const double middle = value_between(interval, a, b, 0.5L, 1.0);
   return !(comes_before(interval, a, middle) &&
            comes_before(interval, middle, b));  // no integer, or no double, lies between
@@ -104,9 +105,10 @@ std::size_t most_halvings_of_widths(const SearchInterval& interval, double a, do
 std::size_t most_halvings_of_ratios(const SearchInterval& interval, double a, double b) {
   if (is_narrow(interval, a, b)) return 0;
   const double largest = std::max(a, b);
+  const double end = std::max(largest_width(interval) / (interval.in_ratios ? 1.0 : largest), kNarrowestPart);
   double log_ratio = std::abs(std::log(b / a));
   std::size_t halvings = 0;
-  for (; -std::expm1(-log_ratio) > std::max(largest_width(interval) / largest, kNarrowestPart); ++halvings) {
+  for (; (interval.in_ratios ? log_ratio : -std::expm1(-log_ratio)) > end; ++halvings) {
     log_ratio = log_ratio / 2.0 + std::min(log_ratio / 1000.0, kDecimalError) +
                 std::min(log_ratio / 8.0, std::numeric_limits<double>::epsilon());
   }

@@ -18,6 +18,7 @@ struct SearchInterval {
   bool logarithmic = false;   ///< bisects ratios instead of differences; both ends are above 0 then
   bool integer = false;
   double tolerance = 0.0;     ///< largest width of the final bracket, > 0
+  bool in_ratios = false;     ///< whether widths are logarithms of ratios, not differences
   std::uint64_t first = 2;    ///< values that are tried at first, both ends among them, >= 2
 };
 

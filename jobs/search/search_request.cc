@@ -80,11 +80,14 @@ class SearchParser : private RequestParser {
   }
 
   [[nodiscard]] SearchInterval interval_of(const Span& span, const json& given) const {
+    const bool in_ratios = span.logarithmic && !given.contains("tolerance");
+    const double way = in_ratios ? std::log(span.to / span.from) : span.to - span.from;
     return {.from = span.from,
             .to = span.to,
             .logarithmic = span.logarithmic,
             .integer = is_integer(search_.parameter),
-            .tolerance = given.value("tolerance", 0.01 * std::abs(span.to - span.from)),
+            .tolerance = given.value("tolerance", 0.01 * std::abs(way)),
+            .in_ratios = in_ratios,
             .first = given.value("first", kDefaultFirst)};
   }
 
@@ -198,9 +201,14 @@ ordered_json case_at(const SearchRequest& search, const std::vector<json>& combi
   return made;
 }
 
-ordered_json first_sweep_of(const ordered_json& request, const SearchRequest& search) {
+ordered_json common_sweep_of_search(const ordered_json& request) {
   ordered_json sweep = take_keys(request, kKeysOfItsSweeps);
   sweep.erase("sweep");
+  return sweep;
+}
+
+ordered_json first_sweep_of(const ordered_json& request, const SearchRequest& search) {
+  ordered_json sweep = common_sweep_of_search(request);
   sweep["cases"] = ordered_json::array();
   for (const auto& combination : combinations_of(search)) {
     for (const double x : first_values(search.interval)) {

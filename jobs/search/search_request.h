@@ -46,6 +46,9 @@ struct SearchRequest {
 [[nodiscard]] nlohmann::ordered_json case_at(const SearchRequest& search,
                                              const std::vector<nlohmann::json>& combination, double x);
 
+/// The sweep of a search without cases. @param request  as parse_search_request has read it
+[[nodiscard]] nlohmann::ordered_json common_sweep_of_search(const nlohmann::ordered_json& request);
+
 /// The sweep whose cases are the first evaluations of a search; others are added to it as extensions.
 /// @param request  as parse_search_request has read it
 [[nodiscard]] nlohmann::ordered_json first_sweep_of(const nlohmann::ordered_json& request,

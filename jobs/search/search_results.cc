@@ -76,10 +76,10 @@ std::optional<std::size_t> SearchResults::end(const ResultRow& job) {
   return position->combination;
 }
 
-void SearchResults::expect(std::size_t index, double x) {
+void SearchResults::expect(std::size_t index, double x, std::size_t jobs) {
   CombinationResults& combination = combinations[index];
-  combination.evaluations[evaluation_at(x, combination)].pending += search_.common.replicates.count;
-  combination.pending += search_.common.replicates.count;
+  combination.evaluations[evaluation_at(x, combination)].pending += jobs;
+  combination.pending += jobs;
 }
 
 std::string SearchResults::end_state() const {

@@ -44,8 +44,8 @@ class SearchResults {
   std::optional<std::size_t> add(const ResultRow& job);
   /// Takes the end of a job that was pending. Returns as add() does.
   std::optional<std::size_t> end(const ResultRow& job);
-  /// Counts the jobs of an evaluation as pending before they are added.
-  void expect(std::size_t combination, double x);
+  /// Counts jobs of an evaluation as pending before they are added.
+  void expect(std::size_t combination, double x, std::size_t jobs);
 
   [[nodiscard]] std::string end_state() const;  ///< once no combination is open
   /// Evaluations that have ended over those that may be needed, 0 .. 1.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/base/ids.h"
+#include "jobs/requests/expand.h"
 #include "jobs/search/search_json.h"
 #include "jobs/search/search_request.h"
 #include "jobs/search/search_results.h"
@@ -24,8 +25,12 @@ SearchRequest search_of(const StudyRow& row) {
 /// Sampler of a search: computes limits only of combinations without pending jobs.
 class LimitSampler final : public StudySampler {
  public:
-  LimitSampler(SearchRequest search, const SweepResults& results)
-      : search_(std::move(search)), results_(search_, results.sweep), open_(results_.combinations.size()) {
+  /// @param common  its sweep without cases
+  LimitSampler(SearchRequest search, ordered_json common, const SweepResults& results)
+      : search_(std::move(search)),
+        common_(std::move(common)),
+        results_(search_, results.sweep),
+        open_(results_.combinations.size()) {
     for (const ResultRow& job : results.rows) results_.add(job);
     for (std::size_t k = 0; k < open_; ++k) add_if_ready(k);
   }
@@ -42,7 +47,7 @@ class LimitSampler final : public StudySampler {
       if (combination.limit.verdict != Verdict::kOpen) --open_;
       for (const double x : combination.limit.next) {
         next.cases.push_back(case_at(search_, combination.values, x));
-        results_.expect(k, x);
+        results_.expect(k, x, plan_cases(common_, ordered_json::array({next.cases.back()})).size());
       }
     }
     if (open_ == 0) next.end_state = results_.end_state();
@@ -57,6 +62,7 @@ class LimitSampler final : public StudySampler {
   }
 
   const SearchRequest search_;
+  const ordered_json common_;
   SearchResults results_;
   std::size_t open_;                 ///< combinations without a verdict
   std::vector<std::size_t> ready_;   ///< combinations whose jobs have all ended since ask() evaluated them
@@ -75,7 +81,8 @@ class SearchStudy final : public StudyType {
 
   [[nodiscard]] std::unique_ptr<StudySampler> make_sampler(const StudyRow& row,
                                                            const SweepResults& results) const override {
-    return std::make_unique<LimitSampler>(search_of(row), results);
+    return std::make_unique<LimitSampler>(search_of(row),
+                                          common_sweep_of_search(ordered_json::parse(row.request)), results);
   }
 
   [[nodiscard]] json make_resource(const StudyRow& row, const SweepResults& results,

@@ -178,9 +178,8 @@ StudyChanges StudyRunner::add_next_cases(const StudyRow& study) {
     return {.any = true};
   }
   if (next.cases.empty()) return {.any = true};
-  ordered_json request = active.common;
-  request["cases"] = next.cases;
-  const bool added = store_.queue.add_cases(study.sweep_id, next.cases, plan_sweep(request, kNoLimit).jobs);
+  const bool added =
+      store_.queue.add_cases(study.sweep_id, next.cases, plan_cases(active.common, next.cases));
   return {.any = true, .added = added};
 }
 

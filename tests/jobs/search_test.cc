@@ -112,6 +112,19 @@ TEST(Search, LooksForALimitForEachCombinationOfTheAxes) {
   EXPECT_TRUE(table.ended);
 }
 
+TEST(Search, WaitsForTheJobsThatEachValueHas) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 2));
+  ordered_json request = request_for(5.3);
+  request["sweep"] = {{"coupler", {"rigid", "flexible"}}};
+  request["replicates"] = {{"count", 3}, {"only", {{"coupler", {"rigid"}}}}};
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kSearch, request).at("id"));
+  EXPECT_EQ(ended.at("state"), "succeeded");
+  for (const json& limit : ended.at("limits")) EXPECT_EQ(limit.at("verdict"), "found");
+  EXPECT_EQ(ended.at("counts").at("total"), 13 * 3 + 13);
+}
+
 TEST(Search, GoesOnAfterARestart) {
   const TemporaryStore store;
   FakeEngine engine;

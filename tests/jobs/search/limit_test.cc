@@ -77,6 +77,17 @@ TEST(FindLimit, GoesTheOtherWayIfThePathDoes) {
   EXPECT_LT(found.limit.beyond.value(), 4.2);
 }
 
+TEST(FindLimit, StopsAtTheSameRatioEverywhere) {
+  const SearchInterval path{.from = 0.01, .to = 10.0, .logarithmic = true, .tolerance = 0.01 * std::log(1000.0), .in_ratios = true, .first = 5};
+  for (const double bound : {0.02, 0.3, 8.0}) {
+    const Found found = search(path, {.bound = bound}, itself);
+    EXPECT_EQ(found.limit.verdict, Verdict::kFound);
+    const double ratio = found.limit.beyond.value() / found.limit.within.value();
+    EXPECT_LE(ratio, std::pow(1000.0, 0.01) * (1.0 + 1e-9)) << bound;
+    EXPECT_GT(ratio, std::pow(1000.0, 0.004)) << bound;
+  }
+}
+
 TEST(FindLimit, HalvesRatiosOfALogarithmicPath) {
   const SearchInterval path{.from = 1e-3, .to = 1e3, .logarithmic = true, .tolerance = 1e-3, .first = 3};
   EXPECT_EQ(first_values(path), (std::vector{1e-3, 1.0, 1e3}));
