@@ -74,13 +74,24 @@ class Dimension {
   }
 
   [[nodiscard]] json value_at(double u) const {
-    if (!values_.empty())
-      return values_[std::min(static_cast<std::size_t>(u * static_cast<double>(values_.size())),
-                              values_.size() - 1)];
+    if (!values_.empty()) return values_[index_at(u)];
     return integer_ ? json(static_cast<std::int64_t>(integer_at(u))) : json(number_at(u, span_.to));
   }
 
+  /// Place of that value between the first, 0, and the last, 1.
+  [[nodiscard]] double position_at(double u) const {
+    if (values_.size() > 1) return static_cast<double>(index_at(u)) / static_cast<double>(values_.size() - 1);
+    if (!values_.empty() || !integer_ || span_.from == span_.to) return u;
+    const double value = integer_at(u);
+    return span_.logarithmic ? std::log(value / span_.from) / std::log(span_.to / span_.from)
+                             : (value - span_.from) / (span_.to - span_.from);
+  }
+
  private:
+  [[nodiscard]] std::size_t index_at(double u) const {
+    return std::min(static_cast<std::size_t>(u * static_cast<double>(values_.size())), values_.size() - 1);
+  }
+
   /// Rounding could lead beyond the end, by one bit.
   [[nodiscard]] double number_at(double u, double end) const {
     return std::min(span_.logarithmic ? geometric_between(span_.from, end, u) : std::lerp(span_.from, end, u),
@@ -170,6 +181,16 @@ UnitPoints effect_points_of(const ordered_json& design) {
     return saltelli_points(design.at("count").get<std::size_t>(), dimensions, seed);
   return morris_points(design.at("trajectories").get<std::size_t>(), dimensions,
                        design.value("levels", kDefaultLevels), seed);
+}
+
+UnitPoints effect_positions_of(const ordered_json& design) {
+  std::vector<Fault> none;  // of a design without faults
+  std::vector<Dimension> dimensions;
+  for (const auto& [path, given] : design.at("over").items()) dimensions.emplace_back(path, given, none);
+  UnitPoints points = effect_points_of(design);
+  for (auto& point : points)
+    for (std::size_t d = 0; d < dimensions.size(); ++d) point[d] = dimensions[d].position_at(point[d]);
+  return points;
 }
 
 DesignPoints make_morris(const ordered_json& design, const json&, std::vector<Fault>& faults) {

@@ -53,4 +53,7 @@ inline constexpr Range kLevelsRange{.minimum = 2, .maximum = 1000};  ///< even o
 /// type "morris" or "saltelli"
 [[nodiscard]] UnitPoints effect_points_of(const nlohmann::ordered_json& design);
 
+/// The same where values of lists and whole numbers are: at 0 the first, at 1 the last, others between.
+[[nodiscard]] UnitPoints effect_positions_of(const nlohmann::ordered_json& design);
+
 }  // namespace jobs

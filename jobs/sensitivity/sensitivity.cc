@@ -2,7 +2,9 @@
 #include "jobs/sensitivity/sensitivity.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,24 +39,19 @@ ordered_json design_of(const json& sweep) {
 }
 
 /// The response of one combination at the points of the design.
-struct Response {
-  std::vector<std::optional<double>> means;  ///< over the replicates
-  std::vector<double> spreads;               ///< standard deviations, of points with two values or more
-};
+using Response = std::vector<ReplicateStatistics>;
 
+/// @param replicates  column of the replicates' numbers: each point begins with its first; empty: a row a
+/// point
 Response response_of(const ResultTable& results, const RowGroup& group, std::size_t metric,
-                     std::size_t points) {
-  const std::size_t replicates = group.rows.size() / points;
+                     const std::optional<std::size_t>& replicates) {
   Response response;
-  for (std::size_t k = 0; k < points; ++k) {
+  for (auto row = group.rows.begin(); row != group.rows.end();) {
     std::vector<double> values;
-    for (std::size_t r = 0; r < replicates; ++r) {
-      if (const auto value = number_in(results.rows[group.rows[k * replicates + r]][metric]))
-        values.push_back(*value);
-    }
-    const ReplicateStatistics statistics = calc_replicate_statistics(values);
-    response.means.push_back(statistics.mean);
-    if (statistics.spread) response.spreads.push_back(*statistics.spread);
+    do {
+      if (const auto value = number_in(results.rows[*row][metric])) values.push_back(*value);
+    } while (++row != group.rows.end() && replicates && results.rows[*row][*replicates] != 0);
+    response.push_back(calc_replicate_statistics(values));
   }
   return response;
 }
@@ -63,17 +60,28 @@ Response response_of(const ResultTable& results, const RowGroup& group, std::siz
 struct WholeBlocks {
   UnitPoints points;
   std::vector<double> values;
+  double within = 0.0;    ///< mean variance between replicates, of points with two values or more
+  double of_means = 0.0;  ///< mean variance of their means by that alone
   std::size_t blocks = 0, missing = 0;
 };
 
 bool is_whole_block(const Response& response, std::size_t first, std::size_t width) {
-  const auto begin = response.means.begin() + static_cast<std::ptrdiff_t>(first);
-  return std::all_of(begin, begin + static_cast<std::ptrdiff_t>(width),
-                     [](const auto& value) { return value.has_value(); });
+  const auto points = std::span(response).subspan(first, width);
+  return std::ranges::all_of(points, [](const ReplicateStatistics& point) { return point.mean.has_value(); });
+}
+
+void set_scatter(const Response& replicated, WholeBlocks& whole) {
+  const auto count = static_cast<double>(replicated.size());
+  for (const ReplicateStatistics& point : replicated) {
+    const double variance = *point.spread * *point.spread / count;
+    whole.within += variance;
+    whole.of_means += variance / static_cast<double>(point.count);
+  }
 }
 
 WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, std::size_t width) {
   WholeBlocks whole;
+  Response replicated;
   for (std::size_t first = 0; first < points.size(); first += width) {
     if (!is_whole_block(response, first, width)) {
       ++whole.missing;
@@ -82,19 +90,20 @@ WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, 
     ++whole.blocks;
     for (std::size_t k = first; k < first + width; ++k) {
       whole.points.push_back(points[k]);
-      whole.values.push_back(*response.means[k]);
+      whole.values.push_back(*response[k].mean);
+      if (response[k].spread) replicated.push_back(response[k]);
     }
   }
+  set_scatter(replicated, whole);
   return whole;
 }
 
-/// The part of the variance that lies between replicates; null without them, or where nothing varies.
-json noise_of(const Response& response, const ReplicateStatistics& all) {
-  if (response.spreads.empty() || !all.spread || *all.spread == 0.0) return nullptr;
-  double within = 0.0;
-  for (const double spread : response.spreads)
-    within += spread * spread / static_cast<double>(response.spreads.size());
-  return within / (within + *all.spread * *all.spread);
+/// The part of a single run's variance that lies between replicates; null without them, or where nothing
+/// varies. The means of the points vary by that, too.
+json noise_of(const WholeBlocks& whole, const ReplicateStatistics& all) {
+  if (!(whole.within > 0.0) || !all.spread || *all.spread == 0.0) return nullptr;
+  const double between = std::max(0.0, *all.spread * *all.spread - whole.of_means);
+  return whole.within / (whole.within + between);
 }
 
 void append(const Estimate& estimate, std::vector<json>& cells) {
@@ -146,7 +155,12 @@ ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, cons
   const std::size_t metric_column = find_metric(results, metric);
   const ordered_json design = design_of(sweep);
   const bool morris = design.at("type") == "morris";
-  const UnitPoints points = effect_points_of(design);
+  const UnitPoints points = effect_positions_of(design);
+  const auto replicate = std::ranges::find(results.columns, "replicate");
+  const std::optional<std::size_t> replicates =
+      replicate == results.columns.end()
+          ? std::nullopt
+          : std::optional(static_cast<std::size_t>(replicate - results.columns.begin()));
   const std::size_t dimensions = design.at("over").size();
   ResultTable table{.columns = {}, .rows = {}, .ended = results.ended};
   std::vector<std::size_t> others;
@@ -157,16 +171,16 @@ ResultTable calc_sensitivity(const json& sweep, const ResultTable& results, cons
   }
   add_measure_columns(morris, table.columns);
   for (const RowGroup& group : group_rows(results, others)) {
-    const Response response = response_of(results, group, metric_column, points.size());
+    Response response = response_of(results, group, metric_column, replicates);
+    response.resize(points.size());  // cases that were added to the sweep follow
     const WholeBlocks whole = whole_blocks_of(points, response, dimensions + (morris ? 1 : 2));
     const ReplicateStatistics all = calc_replicate_statistics(whole.values);
     const auto measures = measures_of(morris, whole, dimensions);
     std::size_t input = 0;
     for (const auto& [path, range] : design.at("over").items()) {
       std::vector<json> cells = group.values;
-      cells.insert(cells.end(),
-                   {metric, path, whole.blocks, whole.missing, value_or_null(all.mean),
-                    value_or_null(all.spread), noise_of(response, all)});
+      cells.insert(cells.end(), {metric, path, whole.blocks, whole.missing, value_or_null(all.mean),
+                                 value_or_null(all.spread), noise_of(whole, all)});
       cells.insert(cells.end(), measures[input].begin(), measures[input].end());
       table.rows.push_back(std::move(cells));
       ++input;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/sensitivity/sensitivity.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 
@@ -85,6 +87,54 @@ TEST(Sensitivity, HasTheElementaryEffectsOfTheWholeRange) {
   EXPECT_GE(size, effect(4.0 + 5.0 / 3.0) * (1 - 1e-6));
   EXPECT_EQ(effect_cell(table, 1, "effect_mean"), size);
   EXPECT_EQ(effect_cell(table, 1, "metric"), peak());
+}
+
+// The grid has four levels, of which two fall on each of two values.
+TEST(Sensitivity, HasTheElementaryEffectsOfAList) {
+  ordered_json request = design_of("morris");
+  for (const json& speeds : {json{4, 9}, json{4, 9, 9.0001}}) {
+    request["design"]["over"]["crank_velocity_rad_s"] = speeds;
+    const Ended ended = run_sensitivity(request);
+    const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
+    const double size = effect_cell(table, 1, "effect_size");
+    if (speeds.size() == 2) {
+      EXPECT_NEAR(size, std::sqrt(9e3) - std::sqrt(4e3), 1e-3);
+      EXPECT_NEAR(effect_cell(table, 1, "effect_deviation").get<double>(), 0.0, 1e-9);
+    } else {  // up to twice as steep in its first half
+      EXPECT_GE(size, std::sqrt(9e3) - std::sqrt(4e3) - 1e-3);
+      EXPECT_LE(size, 2.0 * (std::sqrt(9e3) - std::sqrt(4e3)) + 1e-3);
+    }
+  }
+}
+
+// Replicates of some points alone: the others' rows are not taken for theirs.
+TEST(Sensitivity, KnowsWhichPointsHaveReplicates) {
+  ordered_json request = design_of("saltelli");
+  request.erase("sweep");
+  request["design"]["over"] = {{"coupler", {"rigid", "flexible"}}, {"crank_velocity_rad_s", {{"from", 4}, {"to", 9}}}};
+  request.erase("replicates");
+  const Ended plain = run_sensitivity(request);
+  request["replicates"] = {{"count", 3}, {"only", {{"coupler", {"flexible"}}}}};
+  const Ended some = run_sensitivity(request);
+  EXPECT_GT(some.results.rows.size(), plain.results.rows.size());
+  const auto expected = calc_sensitivity(plain.sweep, plain.results, peak());
+  const auto table = calc_sensitivity(some.sweep, some.results, peak());
+  ASSERT_EQ(table.rows.size(), expected.rows.size());
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    for (const char* const column : {"first_order", "total", "total_low", "mean", "blocks"})
+      EXPECT_EQ(effect_cell(table, row, column), effect_cell(expected, row, column)) << column;
+}
+
+// Where nothing but scatter is, all of the variance of single runs lies between replicates.
+TEST(Sensitivity, TakesScatterForNoise) {
+  Ended ended = run_sensitivity(design_of("saltelli"));
+  const auto metric = static_cast<std::size_t>(
+      std::find(ended.results.columns.begin(), ended.results.columns.end(), peak()) - ended.results.columns.begin());
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  for (auto& row : ended.results.rows) row.at(metric) = normal(generator);
+  const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
+  for (std::size_t row = 0; row < table.rows.size(); ++row) EXPECT_GT(effect_cell(table, row, "noise").get<double>(), 0.75);
 }
 
 // The fake engine fails at a restitution of 0.5: of those blocks nothing is used.
