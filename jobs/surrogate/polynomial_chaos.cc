@@ -129,8 +129,12 @@ PolynomialChaos::PolynomialChaos(const Eigen::MatrixXd& inputs, const Eigen::Vec
   coefficients_ = scale * best.coefficients;
   left_out_ = scale * best.left_out;
   error_ = scale * best.error;
-  const double variance = (response.array() - response.mean()).square().mean();
-  predicted_part_ = variance > 0.0 ? 1.0 - best.error * best.error / variance : 1.0;
+  constexpr double kRounding = 1e-12;  // of the largest response
+  // The mean of the other points errs by n / (n - 1) times the deviation from that of all.
+  const auto n = static_cast<double>(response.size());
+  const double mean_error = n / (n - 1.0) * std::sqrt((response.array() - response.mean()).square().mean());
+  const bool varies = mean_error > kRounding * response.cwiseAbs().maxCoeff();
+  predicted_part_ = varies ? 1.0 - best.error * best.error / (mean_error * mean_error) : 1.0;
 }
 
 double PolynomialChaos::predict(std::span<const double> input) const {

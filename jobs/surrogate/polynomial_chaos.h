@@ -27,8 +27,8 @@ class PolynomialChaos {
   [[nodiscard]] std::size_t terms() const { return exponents_.size(); }
   /// Root of the mean square of the errors of cross-validation, in the response's unit.
   [[nodiscard]] double cross_validation_error() const { return error_; }
-  /// The part of the response's variance that is predicted: 1 - error^2 / variance. Negative where the mean
-  /// alone would do better; 1 if nothing varies.
+  /// The part of the response's variance that is predicted: 1 - (error / error of the mean of all other
+  /// points)^2. 0 where nothing predicts better than that mean; 1 if nothing varies.
   [[nodiscard]] double predicted_part() const { return predicted_part_; }
   /// Prediction of each point from all others.
   [[nodiscard]] const Eigen::VectorXd& left_out_predictions() const { return left_out_; }

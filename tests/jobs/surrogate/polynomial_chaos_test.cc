@@ -74,5 +74,20 @@ TEST(PolynomialChaos, KnowsHowFarItMayBeBelieved) {
   EXPECT_NEAR(constant.predict(std::array<double, 2>{0.1, 0.2}), 2.5, 1e-12);
 }
 
+// The mean of 1.1, 1.1, ... is not 1.1 in most cases.
+TEST(PolynomialChaos, TakesAConstantForPredicted) {
+  for (std::size_t count = 6; count < 40; ++count)
+    EXPECT_EQ(jobs::PolynomialChaos(points(count), Eigen::VectorXd::Constant(static_cast<Eigen::Index>(count), 1.1)).predicted_part(), 1.0) << count;
+}
+
+// Values without an order: no degree predicts them better than their mean does.
+TEST(PolynomialChaos, PredictsNothingWhereTheMeanIsAsGood) {
+  Eigen::VectorXd values(6);
+  values << 1.0, -1.0, 1.0, 1.0, -1.0, -1.0;
+  const jobs::PolynomialChaos surrogate(points(6), values);
+  ASSERT_EQ(surrogate.degree(), 0);
+  EXPECT_NEAR(surrogate.predicted_part(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace jobs_tests
