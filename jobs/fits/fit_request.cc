@@ -272,6 +272,8 @@ class FitParser : private FittedMeasurementsParser {
   [[nodiscard]] double find_end() const {
     double end = 0.0;
     for (const FittedMeasurement& one : measurements_) {
+      const auto& channels = one.measurement.channels;
+      const double least_delay = std::ranges::min(channels, {}, &MeasuredChannel::delay_s).delay_s;
       for (const std::size_t run : one.runs) {
         MeasuredSignal times;
         times.t = one.measurement.runs[run].time_s;
@@ -279,7 +281,7 @@ class FitParser : private FittedMeasurementsParser {
         times.held_back = one.held_back;
         for (const Samples which : {Samples::kFitted, Samples::kHeldBack})
           for (const std::size_t k : select_samples(times, which))
-            end = std::max(end, times.t[k] + one.time_shift_s);
+            end = std::max(end, times.t[k] + one.time_shift_s - std::min(0.0, least_delay));
       }
     }
     return end - delay_limits().from;

@@ -57,9 +57,12 @@ void set_windows(MeasuredSignal& signal, const SignalSource& source, double shif
 }
 
 void set_scale(FitSignal& signal, const json& options) {
+  std::vector<double> times;
   std::vector<double> fitted;
-  for (const std::size_t k : select_samples(signal.measured, Samples::kFitted))
+  for (const std::size_t k : select_samples(signal.measured, Samples::kFitted)) {
+    times.push_back(signal.measured.t[k]);
     fitted.push_back(signal.measured.y[k]);
+  }
   const auto count = static_cast<double>(fitted.size());
   double mean = 0.0;
   double squares = 0.0;
@@ -69,7 +72,7 @@ void set_scale(FitSignal& signal, const json& options) {
   if (options.contains("noise")) {
     signal.noise = sigma = options.at("noise").get<double>();
   } else if (fitted.size() > kFewestForNoise) {
-    signal.noise = estimate_noise(fitted);
+    signal.noise = estimate_noise(times, fitted);
     signal.noise_samples = fitted.size();
   }
   signal.weight = options.value("weight", 1.0);

@@ -11,8 +11,8 @@
 namespace jobs {
 namespace {
 
-/// Slope at a sample of the parabola through it and its neighbours, or at an end of the line to its
-/// neighbour.
+/// Slope at a sample of the parabola through it and its neighbours, at an end through the next two; of two
+/// samples that of their line.
 double slope_at(std::span<const double> t, std::span<const double> y, std::size_t k) {
   const auto chord = [&](std::size_t i) { return (y[i + 1] - y[i]) / (t[i + 1] - t[i]); };
   const std::size_t n = t.size();
@@ -68,6 +68,22 @@ double calc_sigma(const MeasuredSignal& measured) {
   return std::sqrt(squares);
 }
 
+/// Third divided difference of four samples, over its standard deviation where these are noise of
+/// deviation 1.
+double calc_third_difference(std::span<const double> t, std::span<const double> y) {
+  const double length = t[3] - t[0];
+  double difference = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    double weight = 1.0;
+    for (std::size_t j = 0; j < 4; ++j)
+      if (j != i) weight *= length / (t[i] - t[j]);
+    difference += weight * y[i];
+    squares += weight * weight;
+  }
+  return difference / std::sqrt(squares);
+}
+
 }  // namespace
 
 std::vector<double> filter_low_pass(std::span<const double> t, std::span<const double> y, LowPassOrder order,
@@ -112,14 +128,14 @@ std::optional<std::vector<double>> predict_signal(std::span<const double> t, std
   return signal;
 }
 
-double estimate_noise(std::span<const double> y) {
+double estimate_noise(std::span<const double> t, std::span<const double> y) {
   std::vector<double> differences;
   for (std::size_t k = 3; k < y.size(); ++k)
-    differences.push_back(std::abs(y[k] - 3.0 * y[k - 1] + 3.0 * y[k - 2] - y[k - 3]));
+    differences.push_back(std::abs(calc_third_difference(t.subspan(k - 3, 4), y.subspan(k - 3, 4))));
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
   constexpr double kMedianOfNormal = 0.67448975;
-  return *middle / (kMedianOfNormal * std::sqrt(1.0 + 9.0 + 9.0 + 1.0));
+  return *middle / kMedianOfNormal;
 }
 
 std::vector<std::size_t> select_samples(const MeasuredSignal& measured, Samples which) {

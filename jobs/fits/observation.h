@@ -54,9 +54,9 @@ struct MeasuredSignal {
   std::optional<double> sigma;        ///< of the noise; empty: the RMS of the fitted samples about their mean
 };
 
-/// Standard deviation of the noise of evenly spaced samples: by the median of their third differences, so
-/// that neither what is smooth nor a few spikes count. @param y  four or more
-[[nodiscard]] double estimate_noise(std::span<const double> y);
+/// Standard deviation of the noise of samples: by the median of their third divided differences, so that
+/// neither what is smooth nor a few spikes count. @param t  ascending  @param y  four or more
+[[nodiscard]] double estimate_noise(std::span<const double> t, std::span<const double> y);
 
 enum class Samples { kFitted, kHeldBack };
 [[nodiscard]] std::vector<std::size_t> select_samples(const MeasuredSignal& measured, Samples which);

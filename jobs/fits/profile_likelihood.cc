@@ -115,8 +115,10 @@ std::optional<ProfileEnd> EndSearch::run(std::vector<FitPoint>& missing, std::op
       const ProfilePoint at{distance, root_of(answer.result->sum)};
       if (at.root >= threshold()) above_ = at;
       else below_ = at;
-      if (std::abs(at.root - threshold()) <= kRootTolerance * threshold())
-        return end_at(distance * threshold() / at.root);
+      if (std::abs(at.root - threshold()) <= kRootTolerance * threshold()) {
+        const double end = distance * threshold() / at.root;
+        return end > reach_ ? open_end() : end_at(end);
+      }
       if (!above_ && distance >= reach_) return open_end();
     }
     distance = next_distance();

@@ -26,7 +26,7 @@ jobs::FitProblem noise_problem(std::size_t samples, std::uint32_t seed) {
     signal.compared.y.push_back(normal(generator));
   }
   signal.measured.sigma = 1.0;
-  signal.noise = jobs::estimate_noise(signal.compared.y);
+  signal.noise = jobs::estimate_noise(signal.compared.t, signal.compared.y);
   signal.noise_samples = samples;
   return problem;
 }

@@ -241,6 +241,25 @@ TEST(ProfileLikelihood, IsAsymmetricForANonlinearModel) {
   EXPECT_GT(-ends[0].low.value, 1.5 * ends[0].high.value);
 }
 
+// An end within the tolerance of the search, but beyond the span.
+TEST(ProfileLikelihood, HasNoEndBeyondTheSpan) {
+  const auto noise = make_noise(30, 0.0, 4);
+  const auto at_most = [&](double to) {
+    return profile({.spans = {{0.0, to, false}}, .start = {4.0}, .fixed = {}, .options = {}}, [&](const jobs::FitPoint& x) {
+             std::vector<double> r;
+             for (const double e : noise) r.push_back(x[0] - 5.0 - 0.1 * e);
+             return r;
+           }).ends[0];
+  };
+  const double end = at_most(10.0).high.value;
+  const double centre = 0.5 * (end + at_most(10.0).low.value);
+  for (const double part : {0.5, 0.9, 0.985, 0.995}) {
+    const double to = centre + part * (end - centre);
+    EXPECT_EQ(at_most(to).high.verdict, jobs::ProfileVerdict::kOpen) << part;
+    EXPECT_LE(at_most(to).high.value, to) << part;
+  }
+}
+
 TEST(ProfileLikelihood, IsOpenWhereTheBoundIsReached) {
   const auto noise = make_noise(30, 0.0, 4);
   const auto [intervals, ends] = profile(
