@@ -19,7 +19,7 @@ namespace jobs {
 /// are no better than that. Without replicates of both it is "one_run_each": nobody knows their scatter.
 /// `reverses_from` is the last value of `along`, the first number that is swept, before this one with a
 /// verdict "helps" or "harms", if that was the other one, all else equal. `coupler_loss_j` is the
-/// structural loss of the flexible jobs, the energy that the coupler's dampers take, `coupler_loss_part` its
+/// structural loss of the flexible jobs, of all flexible links, dampers and motors, `coupler_loss_part` its
 /// part of all losses.
 /// @throws InvalidRequest ("/metric"); WrongState if the sweep varies no such link
 [[nodiscard]] ResultTable compare_links(const nlohmann::json& sweep, const ResultTable& results,

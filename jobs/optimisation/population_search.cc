@@ -60,7 +60,7 @@ Algorithm make_algorithm(const PopulationOptions& options) {
                         true, options.seed);
   }
   const double mutation = 1.0 / static_cast<double>(options.dimensions);
-  return pagmo::nsga2(1, 0.95, 10.0, mutation, 20.0, options.seed);  // as the paper has them
+  return pagmo::nsga2(1, 0.95, 10.0, mutation, 20.0, options.seed);  // pagmo's own
 }
 
 /// Progress of a population.
