@@ -136,7 +136,8 @@ class Union {
 
   void add_case(const ordered_json& given, std::size_t index, const std::set<std::string>& swept) {
     const std::string pointer = "/cases/" + std::to_string(index);
-    const auto value_faults = find_value_faults(without_description_numbers(given));
+    const auto value_faults = find_value_faults(without_description_numbers(given),
+                                                former_.value("parameters", ordered_json::object()));
     for (const Fault& found : value_faults) fault(pointer + found.pointer, found.detail);
     if (!value_faults.empty()) return;
     for (const std::string& path : paths_of(given)) {

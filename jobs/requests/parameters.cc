@@ -51,9 +51,15 @@ void collect_faults_beside_linkage(const json& given, std::vector<Fault>& faults
   }
 }
 
-/// The faults of what is given beside a described linkage, and of the description: by itself, with the values
-/// given and else the defaults.
-void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
+/// The job's other parameters alone.
+json without_linkage(json parameters) {
+  parameters[kLinkageKey] = json::object();
+  return parameters;
+}
+
+/// The faults of what is given beside a described linkage, and of the description with the job's other
+/// parameters.
+void collect_linkage_faults(const json& given, const json& beside, std::vector<Fault>& faults) {
   const json& linkage = given.at(kLinkageKey);
   if (!linkage.is_object()) {
     if (linkage != kRpsupName)
@@ -61,9 +67,10 @@ void collect_linkage_faults(const json& given, std::vector<Fault>& faults) {
     return;
   }
   collect_faults_beside_linkage(given, faults);
-  if (faults.empty())
-    (void)read_linkage(linkage, to_job_spec(fill_in_defaults({{"linkage", json::object()}})).parameters,
-                       faults);
+  if (!faults.empty()) return;
+  json others = beside;
+  others.update(given);
+  (void)read_linkage(linkage, to_job_spec(fill_in_defaults(without_linkage(others))).parameters, faults);
 }
 
 void add_clearance_faults(const json& completed, std::vector<Fault>& faults) {
@@ -211,12 +218,6 @@ std::size_t count_most_channels() {
   return channel_table(spec).size();
 }
 
-/// The job's other parameters alone.
-json without_linkage(json completed) {
-  completed[kLinkageKey] = json::object();
-  return completed;
-}
-
 /// Text for a key that would be right elsewhere.
 std::string describe_misplaced(const std::string& key) {
   if (key == "parameters") return "unknown key; parameters stand in this object itself";
@@ -265,11 +266,12 @@ std::vector<Fault> find_drive_faults(const json& completed) {
   return faults;
 }
 
-/// Faults that only jobs of "rpsup" have.
+/// Faults that only jobs of "rpsup" have. (Joints of a description are judged one by one.)
 void add_rpsup_faults(const json& completed, std::vector<Fault>& faults) {
   add_drive_faults(completed, faults);
   add_link_faults(completed, faults);
   if (faults.empty()) faults = find_inertia_faults(completed);
+  add_clearance_faults(completed, faults);
 }
 
 void write_drives(const json& completed, engine::RpsupParameters& parameters) {
@@ -298,7 +300,7 @@ void write_description(const json& description, JobSpec& spec) {
 
 }  // namespace
 
-std::vector<Fault> find_value_faults(const json& given) {
+std::vector<Fault> find_value_faults(const json& given, const json& beside) {
   if (!given.is_object()) return {{"", "must be an object of parameters"}};
   std::vector<Fault> faults;
   for (const auto& [key, value] : given.items()) {
@@ -311,7 +313,7 @@ std::vector<Fault> find_value_faults(const json& given) {
     else if (std::string detail = describe_value_fault(key, value); !detail.empty())
       faults.push_back({pointer_token(key), std::move(detail)});
   }
-  if (faults.empty() && given.contains(kLinkageKey)) collect_linkage_faults(given, faults);
+  if (faults.empty() && given.contains(kLinkageKey)) collect_linkage_faults(given, beside, faults);
   return faults;
 }
 
@@ -347,7 +349,6 @@ std::vector<Fault> find_combination_faults(const json& completed) {
   if (!faults.empty()) return faults;
   if (!described) add_rpsup_faults(completed, faults);
   const JobSpec spec = to_job_spec(completed);
-  add_clearance_faults(completed, faults);
   add_material_faults(completed, faults);
   add_sample_faults(spec, faults);
   add_step_faults(completed, spec, faults);

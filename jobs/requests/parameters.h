@@ -30,7 +30,9 @@ namespace jobs {
 // Pointers of the faults start at the parameter set: "/clearance_mm".
 
 /// The faults that the given values have each by itself: unknown key, wrong type, out of range.
-[[nodiscard]] std::vector<Fault> find_value_faults(const nlohmann::json& given);
+/// @param beside  parameters without faults that a described linkage is judged with, beside the given ones
+[[nodiscard]] std::vector<Fault> find_value_faults(const nlohmann::json& given,
+                                                   const nlohmann::json& beside = nlohmann::json::object());
 
 /// The faults of the value of one path by itself. A number inside a described linkage is judged with the
 /// whole description.

@@ -177,11 +177,11 @@ class SweepParser {
     sweep_.parameters[kKeepKey] = keep;
   }
 
-  /// Faults of the parameters at a pointer. The fault of a parameter with several values tells where those
-  /// stand.
+  /// Faults of the parameters at a pointer, which stand beside those of all points. The fault of a parameter
+  /// with several values tells where those stand.
   /// @returns true if there are none
   bool check_values(const json& given, const std::string& pointer) {
-    const std::vector<Fault> found = find_value_faults(given);
+    const std::vector<Fault> found = find_value_faults(given, sweep_.parameters);
     for (const Fault& each : found) {
       const bool several =
           takes_one_value(each.pointer) && given.at(json::json_pointer(each.pointer)).is_structured();

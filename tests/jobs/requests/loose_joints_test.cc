@@ -64,6 +64,31 @@ TEST(LooseJoints, WithoutPlayAreIdeal) {
   }
 }
 
+// The job's other parameters, those of all points of a sweep too, are what a joint or beam does not say.
+TEST(LooseJoints, AreJudgedWithTheJobsOtherParameters) {
+  json parameters = one_joint({{"kind", "revolute"}, {"clearance", {{"clearance_mm", 8}}}});
+  const auto pointers = [](const json& given, const json& beside) {
+    return pointers_of(jobs::find_value_faults(given, beside));
+  };
+  const std::string place = "/linkage/joints/j/clearance/clearance_mm";
+  EXPECT_EQ(pointers(parameters, json::object()), std::vector<std::string>{place});
+  EXPECT_EQ(pointers(parameters, {{"bearing_radius_mm", 20}}), std::vector<std::string>{});
+  parameters["bearing_radius_mm"] = 20;
+  EXPECT_EQ(pointers(parameters, json::object()), std::vector<std::string>{});
+  json& body = parameters["linkage"]["bodies"]["body"];
+  body = {{"mass_kg", 1}, {"beam", {{"length_m", 1}, {"diameter_mm", 20}, {"youngs_modulus_pa", 2.6e11}}}};
+  EXPECT_EQ(pointers(parameters, json::object()).size(), 1U);
+  parameters["shear_modulus_pa"] = 1e11;
+  EXPECT_EQ(pointers(parameters, json::object()), std::vector<std::string>{});
+}
+
+TEST(LooseJoints, WithoutABoreHaveNoBoreToFitInto) {
+  const json block{{"block_width_mm", 20}, {"block_height_mm", 20}, {"clearance_mm", 0.1}};
+  json parameters = one_joint({{"kind", "prismatic"}, {"clearance", block}});
+  parameters["clearance_mm"] = 6;
+  EXPECT_NO_THROW((void)jobs::complete_parameters(parameters, ""));
+}
+
 /// The last sample of a channel.
 double last_of(const json& parameters, const std::string& key) {
   const jobs::JobSpec spec = jobs::to_job_spec(jobs::complete_parameters(parameters, ""));
