@@ -8,8 +8,8 @@
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/unit_scale.h"
 #include "jobs/requests/axis.h"
+#include "jobs/requests/metric_keys.h"
 #include "jobs/requests/parameter_path.h"
-#include "jobs/requests/parameters.h"
 #include "jobs/requests/request_parser.h"
 
 namespace jobs {
@@ -49,8 +49,7 @@ class OptimisationParser : private RequestParser {
   void read_common() {
     try {
       made_.common = parse_sweep_request(take_keys(request_, kCommonKeys), max_jobs_);
-      for (const engine::QuantityInfo& metric : metric_table(made_.common.parameters))
-        metrics_.push_back(metric.key);
+      metrics_ = metric_keys_of(take_keys(request_, kPartsWithMetrics));
     } catch (const InvalidRequest& invalid) {
       add_faults(invalid);
     }

@@ -7,15 +7,15 @@
 #include <numeric>
 #include <string_view>
 
+#include "jobs/base/errors.h"
 #include "jobs/base/flat_json.h"
 #include "jobs/base/ids.h"
 #include "jobs/base/optional_json.h"
 #include "jobs/base/provenance.h"
 #include "jobs/base/study_kind.h"
 #include "jobs/base/time_text.h"
-#include "jobs/linkages/linkage_json.h"
+#include "jobs/requests/metric_keys.h"
 #include "jobs/requests/parameter_path.h"
-#include "jobs/requests/parameters.h"
 #include "jobs/results/result_query.h"
 #include "jobs/results/table_groups.h"
 #include "jobs/results/time_left.h"
@@ -111,27 +111,6 @@ MetricColumns metric_columns(const std::vector<std::string>& keys, std::size_t f
   MetricColumns columns;
   for (const std::string& key : keys) columns.emplace(key, first++);
   return columns;
-}
-
-/// Adds the metrics of a job with these parameters that are not there already.
-void add_metric_keys(const json& parameters, std::vector<std::string>& keys) {
-  for (const engine::QuantityInfo& metric : metric_table(parameters))
-    if (std::ranges::find(keys, metric.key) == keys.end()) keys.push_back(metric.key);
-}
-
-/// The metrics of a sweep: those of all the linkages that its cases have, each key once.
-std::vector<std::string> metric_keys_of(const json& request) {
-  const json common = request.value("parameters", json::object());
-  std::vector<std::string> keys;
-  bool every_case = true;
-  for (const json& each : request.value("cases", json::array())) {
-    if (each.contains(kLinkageKey)) add_metric_keys({{kLinkageKey, each.at(kLinkageKey)}}, keys);
-    else every_case = false;
-  }
-  if (keys.empty() || !every_case)
-    add_metric_keys(describes_linkage(common) ? json{{kLinkageKey, common.at(kLinkageKey)}} : json::object(),
-                    keys);
-  return keys;
 }
 
 /// Puts the metrics of a result into the cells of its row. False if the text is not as simple as it should

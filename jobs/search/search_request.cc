@@ -9,6 +9,7 @@
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/parameters/span.h"
 #include "jobs/requests/axis.h"
+#include "jobs/requests/metric_keys.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
 #include "jobs/requests/request_parser.h"
@@ -131,16 +132,12 @@ class SearchParser : private RequestParser {
     try {
       search_.common = parse_sweep_request(take_keys(request_, kKeysOfItsSweeps), max_jobs_);
       common_is_read_ = true;
-      add_metrics(search_.common.parameters);
+      metrics_ = metric_keys_of(take_keys(request_, kPartsWithMetrics));
     } catch (const InvalidRequest& invalid) {
       add_faults(invalid);
       const bool is_described = request_.value("parameters", ordered_json()).contains(kLinkageKey);
-      if (metrics_.empty() && !is_described) add_metrics(json::object());
+      if (!is_described) metrics_ = metric_keys_of(json::object());
     }
-  }
-
-  void add_metrics(const json& parameters) {
-    for (const engine::QuantityInfo& metric : metric_table(parameters)) metrics_.push_back(metric.key);
   }
 
   void check_size() {

@@ -13,6 +13,7 @@
 #include "jobs/base/errors.h"
 #include "jobs/requests/expand.h"
 #include "jobs/requests/extend_request.h"
+#include "jobs/requests/metric_keys.h"
 #include "jobs/results/table_groups.h"
 #include "jobs/service.h"
 #include "tests/jobs/request_support.h"
@@ -127,6 +128,30 @@ TEST(LinkageSweep, IsComputedAndTabulated) {
   }
   EXPECT_EQ(place_of("peak_slider_acceleration_m_s2", *table), table->columns.size())
       << "a metric of another linkage";
+}
+
+// A joint that is ideal in the description has contact in some jobs.
+TEST(LinkageSweep, HasTheMetricsOfClearanceThatItSweeps) {
+  json parameters = example("slider_crank");
+  const std::string path = "linkage.joints.crank_pin.clearance.clearance_mm", metric = "peak_crank_pin_contact_force_n";
+  parameters["linkage"]["joints"]["crank_pin"]["clearance"]["clearance_mm"] = 0;
+  const auto has_metric = [&](const json& varied) {
+    json request = varied;
+    request["parameters"] = parameters;
+    const auto keys = jobs::metric_keys_of(request);
+    EXPECT_EQ(std::ranges::count(keys, "peak_crank_pin_reaction_n"), 1);
+    return std::ranges::find(keys, metric) != keys.end();
+  };
+  const json span{{"from", 0}, {"to", 0.1}, {"count", 2}};
+  EXPECT_FALSE(has_metric(json::object()));
+  EXPECT_FALSE(has_metric({{"sweep", {{path, {0}}}}}));
+  EXPECT_FALSE(has_metric({{"sweep", {{"linkage.joints.no_pin.clearance.clearance_mm", {0.1}}}}}));
+  EXPECT_TRUE(has_metric({{"sweep", {{path, {0, 0.1}}}}}));
+  EXPECT_TRUE(has_metric({{"sweep", {{path, span}}}}));
+  EXPECT_TRUE(has_metric({{"over", {{path, span}}}}));
+  EXPECT_TRUE(has_metric({{"design", {{"type", "zip"}, {"over", {{path, {0, 0.1}}}}}}}));
+  EXPECT_TRUE(has_metric({{"cases", {{{path, 0}}, {{path, 0.1}}}}}));
+  EXPECT_TRUE(has_metric({{"cases", {{{"linkage", parameters.at("linkage")}}}}, {"sweep", {{path, {0, 0.1}}}}}));
 }
 
 // Mean and largest value over the replicates, against those of the rows themselves.
