@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "jobs/measurements/channel_unit.h"
+#include "jobs/requests/path_unit.h"
 
 namespace jobs {
 namespace {
@@ -21,6 +22,15 @@ double number_of(const json& cell) {
 std::string cell_text(const json& cell) {
   if (cell.is_null()) return "";
   return cell.is_string() ? cell.get<std::string>() : cell.dump();
+}
+
+/// In the spelling of channels: "m/s²"
+std::string unit_of_column(const std::string& name) {
+  std::optional<std::string> unit = find_path_unit(name);
+  if (!unit) return std::string(find_unit(name).value_or(""));
+  if (const std::size_t square = unit->find("^2"); square != std::string::npos)
+    unit->replace(square, 2, "²");
+  return *unit;
 }
 
 }  // namespace
@@ -45,7 +55,7 @@ std::vector<TableColumn> to_columns(const ResultTable& table) {
     TableColumn& column = columns.emplace_back();
     column.name = table.columns[c];
     column.is_text = !std::ranges::all_of(table.rows, [c](const auto& row) { return is_number(row[c]); });
-    if (!column.is_text) column.unit = find_unit(column.name).value_or("");
+    if (!column.is_text) column.unit = unit_of_column(column.name);
     for (const auto& row : table.rows) {
       if (column.is_text) column.texts.push_back(cell_text(row[c]));
       else column.numbers.push_back(number_of(row[c]));
