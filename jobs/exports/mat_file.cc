@@ -70,13 +70,15 @@ MatVariable make_cells(const std::vector<std::string>& texts) {
 /// Fields of a struct, with names that differ.
 class MatStruct {
  public:
-  void add(const std::string& name, MatVariable value) {
+  /// @returns the name that the field has
+  std::string add(const std::string& name, MatVariable value) {
     std::string taken = matlab_name(name);
     for (int k = 2; !names_.insert(taken).second; ++k) {
       const std::string end = "_" + std::to_string(k);
       taken = matlab_name(name).substr(0, 63 - end.size()) + end;
     }
-    fields_.emplace_back(std::move(taken), std::move(value));
+    fields_.emplace_back(taken, std::move(value));
+    return taken;
   }
 
   [[nodiscard]] MatVariable make(const std::string& name) {
@@ -124,8 +126,9 @@ class MatFile final : public TrajectoryFile {
     write(info.make("sweep"));
     MatStruct results;
     for (TableColumn column : sweep.results) {
-      results.add(column.name, column.is_text ? make_cells(column.texts) : make_numbers(column.numbers));
-      if (!column.unit.empty()) units_.insert_or_assign(column.name, column.unit);
+      const std::string field =
+          results.add(column.name, column.is_text ? make_cells(column.texts) : make_numbers(column.numbers));
+      if (!column.unit.empty()) units_.insert_or_assign(field, column.unit);
     }
     write(results.make("results"));
   }
@@ -142,8 +145,8 @@ class MatFile final : public TrajectoryFile {
       const std::string& name = view.channels()[c].key;
       values_.clear();
       view.read_column(c)->append_next(view.samples(), values_);
-      columns.add(name, make_numbers(values_));
-      if (const auto unit = find_unit(name)) units_.insert_or_assign(name, *unit);
+      const std::string field = columns.add(name, make_numbers(values_));
+      if (const auto unit = find_unit(name)) units_.insert_or_assign(field, *unit);
     }
     write(columns.make(job));
   }
@@ -186,7 +189,7 @@ class MatFile final : public TrajectoryFile {
   std::filesystem::path path_;
   mat_t* file_ = nullptr;
   std::size_t written_ = 0;                   ///< variables
-  std::map<std::string, std::string> units_;  ///< of all columns
+  std::map<std::string, std::string> units_;  ///< of all columns, by their fields
   std::vector<double> values_;
 };
 
