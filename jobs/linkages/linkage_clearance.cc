@@ -104,6 +104,23 @@ bool is_inertia_of_a_body(const json& cross) {
   return moments.minCoeff() > 0.0 && moments.sum() - 2.0 * moments.maxCoeff() >= -rounding;
 }
 
+/// Faults of the laws of contact and friction with the parameters of a joint.
+void check_laws(const engine::RpsupParameters& given, JointKind kind, const std::string& pointer,
+                std::vector<Fault>& faults) {
+  const auto require = [&](bool holds, const char* key, const char* detail) {
+    if (!holds) faults.push_back({pointer + pointer_token(key), detail});
+  };
+  require(given.restitution > 0.0 || engine::has_zero_restitution(given.normal_law), "restitution",
+          "must be above 0 with gonthier, flores or hu_guo");
+  require(given.youngs_modulus <= 3.0 * given.shear_modulus, "youngs_modulus_pa",
+          "must be at most 3 times shear_modulus_pa: Poisson's ratio is at most 0.5");
+  require(!applies("stiffness_law", kind) || given.stiffness_law == engine::StiffnessLaw::kHertz ||
+              given.contact == engine::ContactForm::kContinuum,
+          "stiffness_law", "must be hertz for contact elements: the others are laws of a whole ring");
+  require(given.friction != engine::FrictionLaw::kAmbrosio || given.v_1 > given.v_0,
+          "friction_velocity_1_m_s", "must be above friction_velocity_0_m_s");
+}
+
 }  // namespace
 
 bool can_have_clearance(JointKind kind) {
@@ -195,11 +212,7 @@ void check_clearance(const json& joint, JointKind kind, const engine::RpsupParam
   if (kind != JointKind::kPrismatic && given.c_r >= given.bearing_radius)
     faults.push_back({at + "/clearance_mm", "must be less than bearing_radius_mm, which is " +
                                                 readable_number(1e3 * given.bearing_radius) + " mm"});
-  if (given.restitution == 0.0 && !engine::has_zero_restitution(given.normal_law))
-    faults.push_back({at + "/restitution", "must be above 0 with gonthier, flores or hu_guo"});
-  if (given.youngs_modulus > 3.0 * given.shear_modulus)
-    faults.push_back({at + "/youngs_modulus_pa",
-                      "must be at most 3 times shear_modulus_pa: Poisson's ratio is at most 0.5"});
+  check_laws(given, kind, at, faults);
 }
 
 bool has_clearance(const json& joint, const engine::RpsupParameters& defaults) {
