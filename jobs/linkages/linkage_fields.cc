@@ -2,8 +2,10 @@
 #include "jobs/linkages/linkage_fields.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "engine/model/rpsup_parameters.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 
@@ -163,6 +165,9 @@ const LinkageFields& body_fields() {
 }
 
 const LinkageFields& beam_fields() {
+  static const std::string damping_help =
+      "Of the first bending mode of the beam pinned at both ends; without it " +
+      readable_number(engine::RpsupParameters{}.coupler_damping_ratio);
   static const LinkageFields fields{
       {.key = "length_m", .range = between(1e-3, 1000), .unit = "m", .help = "Length", .required = true},
       {.key = "diameter_mm", .range = above(0, 10'000), .unit = "mm", .help = "Of a round section, outside"},
@@ -180,8 +185,7 @@ const LinkageFields& beam_fields() {
        .help = "Without it that of the job"},
       {.key = "shear_modulus_pa", .range = between(1e5, 1e13), .unit = "Pa",
        .help = "Without it that of the job"},
-      {.key = "damping_ratio", .range = between(0, 10),
-       .help = "Of the first bending mode of the beam pinned at both ends; without it 0.01"},
+      {.key = "damping_ratio", .range = between(0, 10), .help = damping_help},
   };
   return fields;
 }

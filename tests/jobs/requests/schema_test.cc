@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/linkages/linkage_beam.h"
+#include "jobs/linkages/linkage_fields.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/requests/parameter_schema.h"
 #include "jobs/requests/parameters.h"
@@ -145,6 +149,16 @@ TEST(ParameterSchema, AgreesWithTheChecks) {
           << key;
     }
   }
+}
+
+TEST(LinkageSchema, SaysTheDampingOfABeamWithoutAny) {
+  const auto& fields = jobs::beam_fields();
+  const auto field = std::ranges::find(fields, "damping_ratio", &jobs::LinkageField::key);
+  ASSERT_NE(field, fields.end());
+  const std::string help(field->help);
+  EXPECT_EQ(std::stod(help.substr(help.rfind(' '))),
+            jobs::read_beam({{"length_m", 1}, {"diameter_mm", 20}}, 1.0, {}).damping_ratio)
+      << help;
 }
 
 }  // namespace
