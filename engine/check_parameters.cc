@@ -129,7 +129,7 @@ void check_friction(const RpsupParameters& p) {
   require_positive(p.v_0, "v_0");
   require_positive(p.v_1, "v_1");
   require(p.friction != FrictionLaw::kAmbrosio || p.v_1 > p.v_0, "v_1",
-          "above v_0, " + to_text(p.v_0) + " m/s");
+          "above friction_velocity_0_m_s, " + to_text(p.v_0) + " m/s");
 }
 
 /// @param sectors  of each ring  @param most  the deepest wear, [m]
