@@ -50,7 +50,8 @@ LinkageFields load_fields() {
            .kind = FieldKind::kPoint,
            .range = between(-1000, 1000),
            .unit = "m",
-           .help = "Where a force acts, in the body's frame; without it its origin"},
+           .help = "Where the load acts, in the body's frame; without it its origin. The place of a moment "
+                   "counts on a beam"},
           {.key = "direction",
            .kind = FieldKind::kPoint,
            .range = between(-1e6, 1e6),

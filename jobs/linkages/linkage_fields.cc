@@ -94,6 +94,7 @@ json schema_of_field(const LinkageField& field) {
     case FieldKind::kPoint: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3},
                                       {"items", number_schema(field)}}; break;
     case FieldKind::kInertia: schema = {{"type", "array"}, {"minItems", 3}, {"maxItems", 6},
+                                        {"not", {{"minItems", 4}, {"maxItems", 5}}},
                                         {"items", number_schema(field)}}; break;
     case FieldKind::kNumbers: schema = {{"type", "array"}, {"minItems", field.fewest},
                                         {"maxItems", kMostNumbers}, {"items", number_schema(field)}}; break;

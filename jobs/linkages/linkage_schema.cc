@@ -174,7 +174,6 @@ json schema_of_body_load() {
     schema["properties"][effort.key] = schema_of_effort(*field, effort, motion, EffortVariables::kTime);
     schema["oneOf"].push_back({{"required", json::array({effort.key})}});
   }
-  schema["oneOf"].back()["not"] = {{"required", {"at_m"}}};  // of a moment
   return schema;
 }
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstddef>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/linkages/linkage_actuator.h"
 #include "jobs/linkages/linkage_beam.h"
 #include "jobs/linkages/linkage_fields.h"
+#include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/parameter_table.h"
 #include "jobs/requests/parameter_schema.h"
 #include "jobs/requests/parameters.h"
@@ -159,6 +163,32 @@ TEST(LinkageSchema, SaysTheDampingOfABeamWithoutAny) {
   EXPECT_EQ(std::stod(help.substr(help.rfind(' '))),
             jobs::read_beam({{"length_m", 1}, {"diameter_mm", 20}}, 1.0, {}).damping_ratio)
       << help;
+}
+
+const json& described_schema() {
+  static const json schema = jobs::linkage_schema().at("oneOf").at(1).at("properties");
+  return schema;
+}
+
+TEST(LinkageSchema, TakesThreeOrSixMomentsOfInertia) {
+  const json schema = described_schema().at("bodies").at("additionalProperties").at("properties").at("inertia_kg_m2");
+  const auto is_between = [](const json& limits, std::size_t n) {
+    return n >= limits.at("minItems") && n <= limits.at("maxItems");
+  };
+  for (std::size_t n = 1; n < 9; ++n) {
+    std::vector<jobs::Fault> faults;
+    jobs::check_fields({{"mass_kg", 1}, {"inertia_kg_m2", std::vector<double>(n, 1.0)}}, jobs::body_fields(), "", faults);
+    EXPECT_EQ(is_between(schema, n) && !is_between(schema.at("not"), n), faults.empty()) << n;
+  }
+}
+
+TEST(LinkageSchema, TakesThePlaceOfAMoment) {
+  const json load{{"body", "beam"}, {"at_m", {0.1, 0, 0}}, {"direction", {0, 0, 1}}, {"torque_n_m", 1}};
+  std::vector<jobs::Fault> faults;
+  jobs::check_body_load(load, "", faults);
+  EXPECT_TRUE(faults.empty());
+  const json schema = described_schema().at("loads").at("additionalProperties");
+  for (const json& one : schema.at("oneOf")) EXPECT_EQ(one.size(), 1U) << "required alone";
 }
 
 }  // namespace
