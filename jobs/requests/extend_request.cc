@@ -35,11 +35,12 @@ class Union {
   /// The faults of the union where they stand in the addition.
   [[nodiscard]] std::vector<Fault> in_addition(std::vector<Fault> faults) const {
     const std::size_t before = former_.contains("cases") ? former_.at("cases").size() : 0;
-    for (std::size_t k = 0; k < added_cases_.size(); ++k) {
-      const std::string in_union = "/cases/" + std::to_string(before + k);
-      for (Fault& fault : faults) {
+    for (Fault& fault : faults) {
+      for (std::size_t k = 0; k < added_cases_.size(); ++k) {
+        const std::string in_union = "/cases/" + std::to_string(before + k);
         if (fault.pointer != in_union && !fault.pointer.starts_with(in_union + "/")) continue;
         fault.pointer = "/cases/" + std::to_string(added_cases_[k]) + fault.pointer.substr(in_union.size());
+        break;
       }
     }
     return faults;

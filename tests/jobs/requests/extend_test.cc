@@ -158,7 +158,12 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusalCase{"CasesThatCannotBe",
                                 R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 2}]})",
                                 R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 900}]})",
-                                {"/cases/1/clearance_mm"}}),
+                                {"/cases/1/clearance_mm"}},
+                    RefusalCase{"CasesBehindRepeatedOnes",
+                                R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 2}]})",
+                                R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 1}, {"clearance_mm": 2},
+                                              {"clearance_mm": 900}, {"clearance_mm": 3}]})",
+                                {"/cases/3/clearance_mm"}}),
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
