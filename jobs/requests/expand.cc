@@ -113,11 +113,19 @@ class ShownValues {
   std::map<std::string, std::vector<json>, std::less<>> names_;  ///< by key, one a case
 };
 
+/// @returns whether a fault at a pointer is that of a path's value, or of the list that the value is in
+bool is_fault_of_path(const std::string& path, const std::string& pointer) {
+  const std::string own = pointer_of_path(path);
+  return own == pointer ||
+         (own.starts_with(pointer + "/") &&
+          own.find_first_not_of("0123456789", pointer.size() + 1) == std::string::npos);
+}
+
 /// The place in a case, beneath it, that gave the parameter of the pointer its value.
 std::optional<std::string> find_place_in_case(const json& given, const std::string& pointer) {
   if (given.contains(json::json_pointer(pointer))) return pointer;
   for (const auto& [key, value] : given.items())
-    if (is_path_in_description(key) && pointer_of_path(key) == pointer) return pointer_token(key);
+    if (is_path_in_description(key) && is_fault_of_path(key, pointer)) return pointer_token(key);
   return std::nullopt;
 }
 
@@ -154,12 +162,11 @@ class PointFaults {
   /// given.
   [[nodiscard]] std::string pointer_in_request(const std::string& pointer, const Position& position) const {
     const std::string path = path_of_pointer(pointer);
-    for (const Axis& axis : sweep_.axes) {
-      if (axis.path == path || pointer_of_path(axis.path) == pointer)
-        return "/sweep" + pointer_token(axis.path);
-    }
-    if (std::ranges::find(sweep_.design.paths, path) != sweep_.design.paths.end())
-      return "/design/over" + pointer_token(path);
+    const auto is_it = [&](const std::string& one) { return one == path || is_fault_of_path(one, pointer); };
+    if (const auto axis = std::ranges::find_if(sweep_.axes, is_it, &Axis::path); axis != sweep_.axes.end())
+      return "/sweep" + pointer_token(axis->path);
+    const auto designed = std::ranges::find_if(sweep_.design.paths, is_it);
+    if (designed != sweep_.design.paths.end()) return "/design/over" + pointer_token(*designed);
     if (!sweep_.cases.empty()) {
       const auto place = find_place_in_case(sweep_.cases[position.case_index], pointer);
       if (place) return "/cases" + pointer_token(std::to_string(position.case_index)) + *place;

@@ -217,6 +217,19 @@ TEST(LinkageSweep, RefusesWhatIsNoPlaceOrNoValueOfTheDescription) {
   }
 }
 
+// A list is refused as a whole; its fault stands where the element came from.
+TEST(LinkageSweep, NamesThePlaceOfAnElementOfAList) {
+  const json parameters = example("slider_crank");
+  const std::string path = "linkage.bodies.rod.centre_of_mass_m.0";
+  const auto pointers = [&](const char* where, const json& varied) {
+    return pointers_of(faults_of([&] { (void)jobs::plan_sweep({{"parameters", parameters}, {where, varied}}, 100); }));
+  };
+  EXPECT_EQ(pointers("sweep", {{path, {0.1, 5000}}}), std::vector<std::string>{"/sweep/" + path});
+  EXPECT_EQ(pointers("design", {{"type", "zip"}, {"over", {{path, {0.1, 5000}}}}}),
+            std::vector<std::string>{"/design/over/" + path});
+  EXPECT_EQ(pointers("cases", {{{path, 0.1}}, {{path, 5000}}}), std::vector<std::string>{"/cases/1/" + path});
+}
+
 // Where the description has no value of its own, or none that is a number, the design has no centre.
 TEST(LinkageSweep, NeedsACentreForOneAtATime) {
   const auto pointers = [](const std::string& path, const json& centre) {
