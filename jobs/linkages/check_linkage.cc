@@ -186,7 +186,7 @@ class LinkageChecker {
     std::vector<std::string> names;
     if (!find_joint_kind(joint)) return names;
     if (closes_loop(joint)) {
-      if (has_cross(joint)) names.push_back(name + "_first");
+      if (has_cross(joint)) names.push_back(name + std::string(kFirstEnding));
       return names;
     }
     for (const auto& [part, motion] : list_freedoms(joint))

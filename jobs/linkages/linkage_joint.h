@@ -33,6 +33,8 @@ using JointFreedom = std::pair<std::string_view, engine::Motion>;
 /// @returns whether a joint is a universal one with clearance, whose cross is a body between revolute joints
 [[nodiscard]] bool has_cross(const nlohmann::json& joint);
 inline constexpr std::string_view kCrossEnding = "_cross";  ///< of that body's name, behind the joint's
+inline constexpr std::string_view kFirstEnding = "_first";  ///< of those revolute joints' names
+inline constexpr std::string_view kSecondEnding = "_second";
 
 /// Parameters of a joint with clearance. @param defaults  the job's, for those that the joint does not give
 [[nodiscard]] engine::RpsupParameters clearance_parameters(const nlohmann::json& clearance,

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "jobs/linkages/check_linkage.h"
+#include "jobs/linkages/linkage_joint.h"
 #include "jobs/linkages/make_linkage.h"
 #include "jobs/parameters/parameter_value.h"
 
@@ -21,6 +23,28 @@ json with_doubles(const json& value) {
   return made;
 }
 
+/// "bodies.rod.mass" -> "bodies", "rod", "mass"
+std::vector<std::string> parts_of_field(std::string_view field) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= field.size();) {
+    const std::size_t dot = std::min(field.find('.', start), field.size());
+    parts.emplace_back(field.substr(start, dot - start));
+    start = dot + 1;
+  }
+  return parts;
+}
+
+/// Place of a body or joint of the engine. A universal joint with clearance is two joints and a body there.
+std::string pointer_of_part(const std::string& kind, const std::string& name, const json& description) {
+  if (description.contains(kind) && description.at(kind).contains(name))
+    return pointer_token(kind) + pointer_token(name);
+  for (const std::string_view ending : {kFirstEnding, kSecondEnding, kCrossEnding})
+    if (name.ends_with(ending))
+      return "/joints" + pointer_token(name.substr(0, name.size() - ending.size())) +
+             (ending == kCrossEnding ? "/cross" : "");
+  return pointer_token(kind) + pointer_token(name);
+}
+
 }  // namespace
 
 bool describes_linkage(const json& parameters) {
@@ -34,14 +58,17 @@ std::optional<engine::Linkage> read_linkage(const json& description, const engin
   return order ? std::optional(make_linkage(description, defaults, *order)) : std::nullopt;
 }
 
-std::string pointer_of_linkage_field(std::string_view field) {
+std::string pointer_of_linkage_field(std::string_view field, const json& description) {
+  const std::vector<std::string> parts = parts_of_field(field);
   std::string pointer = "/linkage";
-  for (std::size_t start = 0; start <= field.size();) {
-    const std::size_t dot = std::min(field.find('.', start), field.size());
-    const std::string_view part = field.substr(start, dot - start);
-    if (!part.empty())
-      pointer += pointer_token(part == "mass" ? "mass_kg" : part == "inertia" ? "inertia_kg_m2" : part);
-    start = dot + 1;
+  if (parts.size() < 2) return pointer + (field.empty() ? "" : pointer_token(field));
+  pointer += pointer_of_part(parts[0], parts[1], description);
+  for (std::size_t k = 2; k < parts.size(); ++k) {
+    const json::json_pointer about_origin("/bodies/" + parts[1] + "/inertia_about_origin_kg_m2");
+    pointer += parts[k] == "mass"                   ? "/mass_kg"
+               : parts[k] != "inertia"              ? pointer_token(parts[k])
+               : description.contains(about_origin) ? "/inertia_about_origin_kg_m2"
+                                                    : "/inertia_kg_m2";
   }
   return pointer;
 }

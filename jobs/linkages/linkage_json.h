@@ -30,7 +30,7 @@ inline constexpr std::string_view kRpsupName = "rpsup";
 
 /// Pointer into the description for a fault's field of engine::check_linkage: "bodies.rod.mass" ->
 /// "/linkage/bodies/rod/mass_kg".
-[[nodiscard]] std::string pointer_of_linkage_field(std::string_view field);
+[[nodiscard]] std::string pointer_of_linkage_field(std::string_view field, const nlohmann::json& description);
 
 /// A description, of a linkage or of a drive, in the one form in which it is stored: all numbers as doubles,
 /// -0 as 0.

@@ -207,7 +207,7 @@ class LinkageMaker {
 
   [[nodiscard]] engine::LinkageJoint make_first_of_cross(const std::string& name, const json& given,
                                                          const std::string& cross) const {
-    engine::LinkageJoint first = start_revolute(name + "_first", given);
+    engine::LinkageJoint first = start_revolute(name + std::string(kFirstEnding), given);
     first.to = cross;
     first.cut = false;
     first.axes[0] = read_axis(given, "axis", 'z');
@@ -217,7 +217,7 @@ class LinkageMaker {
 
   [[nodiscard]] engine::LinkageJoint make_second_of_cross(const std::string& name, const json& given,
                                                           const std::string& cross) const {
-    engine::LinkageJoint second = start_revolute(name + "_second", given);
+    engine::LinkageJoint second = start_revolute(name + std::string(kSecondEnding), given);
     second.from = cross;
     second.placement = {};
     second.axes[0] = read_axis(given, "second_axis", 'y');

@@ -179,10 +179,10 @@ std::string pointer_of_geometry(const json& completed, std::string_view otherwis
 }
 
 /// The fault of a linkage whose names make one key twice.
-void add_key_fault(const engine::Linkage& linkage, std::vector<Fault>& faults) {
+void add_key_fault(const engine::Linkage& linkage, const json& description, std::vector<Fault>& faults) {
   const engine::BuiltLinkage built = engine::build_linkage(linkage);
   const auto clash = engine::LinkageQuantities(linkage, built, 0.0).find_key_clash();
-  if (clash) faults.push_back({pointer_of_linkage_field(clash->field), clash->detail});
+  if (clash) faults.push_back({pointer_of_linkage_field(clash->field, description), clash->detail});
 }
 
 void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
@@ -193,10 +193,11 @@ void add_engine_fault(const json& completed, const JobSpec& spec, std::vector<Fa
     }
     engine::check_parameters(spec.parameters, spec.options);
   } catch (const engine::InvalidInput& fault) {
-    std::string pointer = spec.linkage               ? pointer_of_linkage_field(fault.field())
-                          : fault.field() == "reach" ? pointer_of_geometry(completed, "coupler_length_m")
-                          : fault.field() == "yoke"  ? pointer_of_geometry(completed, "guide_offset_z_m")
-                                                     : pointer_of_member(fault.field());
+    const std::string& field = fault.field();
+    std::string pointer = spec.linkage       ? pointer_of_linkage_field(field, completed.at(kLinkageKey))
+                          : field == "reach" ? pointer_of_geometry(completed, "coupler_length_m")
+                          : field == "yoke"  ? pointer_of_geometry(completed, "guide_offset_z_m")
+                                             : pointer_of_member(field);
     faults.push_back({pointer, pointer.empty() ? fault.what() : fault.detail()});
   }
 }
@@ -252,9 +253,9 @@ void fill_in_drives(const json& given, json& completed) {
 
 std::vector<Fault> find_description_faults(const json& completed) {
   std::vector<Fault> faults;
-  const auto linkage =
-      read_linkage(completed.at(kLinkageKey), to_job_spec(without_linkage(completed)).parameters, faults);
-  if (linkage) add_key_fault(*linkage, faults);
+  const json& description = completed.at(kLinkageKey);
+  const auto linkage = read_linkage(description, to_job_spec(without_linkage(completed)).parameters, faults);
+  if (linkage) add_key_fault(*linkage, description, faults);
   return faults;
 }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/simulate_linkage.h"
+#include "jobs/linkages/linkage_json.h"
 #include "jobs/requests/parameters.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/requests/example_linkage.h"
@@ -154,6 +155,10 @@ constexpr Refusal kRefusals[] = {
     {"inertia_of_no_body",
      R"([{"op": "replace", "path": "/linkage/bodies/rocker/inertia_kg_m2", "value": [1, 1, 3]}])",
      "/linkage/bodies/rocker/inertia_kg_m2", "principal moment"},
+    {"inertia_of_no_body_about_its_origin",
+     R"([{"op": "remove", "path": "/linkage/bodies/rocker/inertia_kg_m2"},
+         {"op": "add", "path": "/linkage/bodies/rocker/inertia_about_origin_kg_m2", "value": [1, 1, 5]}])",
+     "/linkage/bodies/rocker/inertia_about_origin_kg_m2", "principal moment"},
     {"loop_that_does_not_close",
      R"([{"op": "replace", "path": "/linkage/joints/rocker/at_m", "value": [2, 0, 0]}])",
      "/linkage/joints/rocker_pin", "does not close"},
@@ -208,6 +213,19 @@ constexpr Refusal kRefusals[] = {
 
 INSTANTIATE_TEST_SUITE_P(All, LinkageRefusal, testing::ValuesIn(kRefusals),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// A universal joint with clearance is two joints of the engine, and a body between them.
+TEST(LinkageRefusals, NameAUniversalJointByItsOwnName) {
+  const json description = json_of(R"({"bodies": {"a": {}}, "joints": {"u": {}, "guide_first": {}}})");
+  const auto pointer_of = [&](const char* field) { return jobs::pointer_of_linkage_field(field, description); };
+  EXPECT_EQ(pointer_of("joints.u_first"), "/linkage/joints/u");
+  EXPECT_EQ(pointer_of("joints.u_second"), "/linkage/joints/u");
+  EXPECT_EQ(pointer_of("bodies.u_cross.inertia"), "/linkage/joints/u/cross/inertia_kg_m2");
+  EXPECT_EQ(pointer_of("joints.guide_first"), "/linkage/joints/guide_first");
+  EXPECT_EQ(pointer_of("bodies.a.mass"), "/linkage/bodies/a/mass_kg");
+  EXPECT_EQ(pointer_of("joints"), "/linkage/joints");
+  EXPECT_EQ(pointer_of(""), "/linkage");
+}
 
 TEST(LinkageRefusals, ComeAllAtOnce) {
   json given = example("four_bar");
