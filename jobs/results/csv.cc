@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobs/results/csv.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "engine/analysis/quantities.h"
+#include "jobs/parameters/parameter_table.h"
 #include "jobs/results/result_table.h"
 
 namespace jobs {
@@ -13,10 +16,19 @@ namespace {
 
 constexpr const char* kLineEnd = "\r\n";
 
-/// A text cell. One that a spreadsheet would take for a formula is made plain text by a leading apostrophe.
+/// @returns whether a parameter may have a word as its value: "-z"
+bool is_choice(std::string_view word) {
+  return std::ranges::any_of(parameter_table(), [word](const ParameterInfo& info) {
+    return std::ranges::find(info.choices, word) != info.choices.end();
+  });
+}
+
+/// A text cell. One that a spreadsheet would take for a formula is made plain text by a leading apostrophe,
+/// unless it is the value of a parameter.
 std::string text_cell(std::string text) {
   constexpr std::string_view kFormulaStarts = "=+-@\t\r";
-  if (!text.empty() && kFormulaStarts.find(text.front()) != std::string_view::npos) text.insert(0, "'");
+  if (!text.empty() && kFormulaStarts.find(text.front()) != std::string_view::npos && !is_choice(text))
+    text.insert(0, "'");
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {

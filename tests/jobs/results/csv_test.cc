@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
+#include "jobs/parameters/parameter_table.h"
 #include "jobs/results/csv.h"
 #include "jobs/results/result_table.h"
 
@@ -37,6 +41,16 @@ TEST(Csv, DisarmsFormulasInTextButNotNumbers) {
   EXPECT_EQ(jobs::to_csv(table),
             "a\r\n'=1+1\r\n'+1\r\n'-1\r\n'@x\r\n'\tx\r\n\"'\rx\"\r\n\"'=HYPERLINK(\"\"u\"\",\"\"v\"\")\"\r\n-"
             "1.5\r\na=b\r\n");
+}
+
+TEST(Csv, WritesValuesOfParametersAsTheyAre) {
+  std::size_t signed_words = 0;
+  for (const jobs::ParameterInfo& info : jobs::parameter_table())
+    for (const std::string_view word : info.choices) {
+      EXPECT_EQ(jobs::to_csv({{"a"}, {{std::string(word)}}}), "a\r\n" + std::string(word) + "\r\n");
+      signed_words += word.starts_with('-') ? 1 : 0;
+    }
+  EXPECT_GT(signed_words, 0U);
 }
 
 TEST(Csv, OfATrajectoryHasALineASample) {
