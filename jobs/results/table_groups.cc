@@ -63,7 +63,8 @@ std::vector<std::string> free_metrics(const nlohmann::json& sweep, const ResultT
   std::vector<std::string> free;
   for (const std::string_view metric : metrics_of(table)) {
     const auto is_of = [&](const std::string& coordinate) {
-      return metric.find("_" + coordinate + "_acceleration") != std::string_view::npos;
+      return metric.starts_with("peak_" + coordinate + "_acceleration") ||
+             metric.starts_with("rms_" + coordinate + "_acceleration");
     };
     if (is_time(metric) || std::ranges::any_of(driven, is_of)) continue;
     if (varies(table, find_column(table, std::string(metric), ""))) free.emplace_back(metric);

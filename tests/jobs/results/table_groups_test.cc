@@ -28,6 +28,13 @@ TEST(ChooseFreeMetric, LeavesOutWhatADrivePrescribes) {
             "peak_crank_acceleration_rad_s2");
 }
 
+TEST(ChooseFreeMetric, IsOfAFreeCoordinateWhoseNameEndsInADrivenOne) {
+  const ResultTable table{.columns = {"job_id", "state", "peak_crank_acceleration_rad_s2", "rms_crank_acceleration_rad_s2",
+                                      "peak_big_crank_acceleration_rad_s2"},
+                          .rows = {{"a", "succeeded", 1.0, 1.0, 110.0}, {"b", "succeeded", 2.0, 2.0, 120.0}}};
+  EXPECT_EQ(choose_free_metric(kCrankDriven, table, ""), "peak_big_crank_acceleration_rad_s2");
+}
+
 TEST(ChooseFreeMetric, PrefersAnAcceleration) {
   const ResultTable table{
       .columns = {"job_id", "state", "peak_crank_drive_n_m", "peak_rod_acceleration_m_s2"},
