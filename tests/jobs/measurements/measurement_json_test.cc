@@ -108,6 +108,16 @@ TEST(MeasurementJson, RefusesWithAPointer) {
   EXPECT_EQ(faults_of([] { static_cast<void>(jobs::read_measurement_json(request_of("[]"))); }).size(), 1U);
 }
 
+// What is no number has no order.
+TEST(MeasurementJson, NamesAFaultOfTheTimeOnce) {
+  for (const json& times : {json{0, nullptr, 0.2}, json(), json{0.1, "0.2", 0.3}}) {
+    json request = json_of(kMeasuredJson);
+    request["runs"][0]["time_s"] = times;
+    EXPECT_EQ(faults_of([&] { static_cast<void>(jobs::read_measurement_json(request_of(request.dump()))); }).size(), 1U)
+        << times;
+  }
+}
+
 TEST(MeasurementJson, DescribesSamplesByClosedForms) {
   Measurement measured;
   measured.channels = {{.name = "force_n", .column = "f"}};
