@@ -40,13 +40,18 @@ std::string describe_channel_name_fault(std::string_view name) {
   return "";
 }
 
-std::string quoted_text(std::string_view text) {
+std::string shown_text(std::string_view text) {
   constexpr std::size_t kLongest = 60;
-  std::string shown(text.substr(0, kLongest));
+  const auto is_inside = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U; };
+  std::size_t end = std::min(text.size(), kLongest);
+  while (end > 0 && end < text.size() && is_inside(end)) --end;
+  std::string shown(text.substr(0, end));
   for (char& c : shown)
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  return "\"" + shown + (text.size() > kLongest ? "..." : "") + "\"";
+  return end < text.size() ? shown + "..." : shown;
 }
+
+std::string quoted_text(std::string_view text) { return "\"" + shown_text(text) + "\""; }
 
 void add_time_faults(std::span<const double> time_s,
                      const std::function<Fault(std::size_t, const std::string&)>& fault_at,

@@ -23,7 +23,9 @@ inline constexpr const char* kNoGaps = "gaps (NaN, empty cells) are not allowed 
 /// Fault of the name of a channel: characters, length, unit. Empty if there is none.
 [[nodiscard]] std::string describe_channel_name_fault(std::string_view name);
 
-/// Text of a file in quotes, shortened, without control characters.
+/// Text of a file, shortened between characters, without control characters.
+[[nodiscard]] std::string shown_text(std::string_view text);
+/// The same in quotes.
 [[nodiscard]] std::string quoted_text(std::string_view text);
 
 /// Adds the faults of finite times: too few, not strictly increasing.

@@ -82,14 +82,20 @@ class ColumnChooser {
     }
   }
 
+  /// Names that are not shown as they are, or that the query would split, cannot be asked for.
+  [[nodiscard]] static std::string advise_on(const std::string& name) {
+    return shown_text(name) == name && name.find(',') == std::string::npos
+               ? "channels=" + name + ":CHANNEL in the query gives the column the name of a channel"
+               : "give the column another name";
+  }
+
   void choose_all() {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (i == choice_.time) continue;
       const std::string detail = describe_channel_name_fault(names_[i]);
       if (detail.empty()) add(i, names_[i]);
       else
-        faults_.push_back({"", place_(i) + ": the name " + detail + "; channels=" + names_[i] +
-                                   ":CHANNEL in the query gives the column the name of a channel"});
+        faults_.push_back({"", place_(i) + ": the name " + detail + "; " + advise_on(names_[i])});
     }
   }
 
@@ -116,7 +122,8 @@ class ColumnChooser {
   void check_count() {
     if (!faults_.empty()) return;
     if (choice_.channels.empty())
-      faults_.push_back({"", "there is no channel: the only column is the time, " + names_[choice_.time]});
+      faults_.push_back({"", "there is no channel: the only column is the time, " +
+                             shown_text(names_[choice_.time])});
     if (choice_.channels.size() > kMostMeasuredChannels)
       faults_.push_back(
           {"", "a measurement may have " + std::to_string(kMostMeasuredChannels) + " channels"});

@@ -88,8 +88,8 @@ class CsvReader {
 
  private:
   [[nodiscard]] std::string place(std::size_t line, std::size_t column) const {
-    return "line " + std::to_string(line) + ", column " + std::to_string(column + 1) + " (" + names_[column] +
-           ")";
+    return "line " + std::to_string(line) + ", column " + std::to_string(column + 1) + " (" +
+           shown_text(names_[column]) + ")";
   }
 
   /// Takes the next line. False at the end of the text.

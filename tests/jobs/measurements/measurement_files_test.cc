@@ -173,6 +173,18 @@ TEST(MeasurementCsv, AsksForNamesWithUnits) {
             "/name must be a string of at most 200 bytes");
 }
 
+TEST(MeasurementCsv, AdvisesWhatTheQueryCanSay) {
+  EXPECT_THAT(csv_refusal("time_s,\"a,b\"\n0,1\n1,2\n"), HasSubstr("; give the column another name"));
+  EXPECT_THAT(csv_refusal("time_s," + std::string(61, 'a') + "\n0,1\n1,2\n"),
+              HasSubstr("; give the column another name"));
+}
+
+TEST(MeasurementCsv, ShortensLongNamesBetweenCharacters) {
+  const std::string name = std::string(59, 'a') + "\u00b5" + std::string(100'000, 'b') + "_m";
+  EXPECT_EQ(csv_refusal("time_s," + name + "\n0,x\n1,2\n", {.channels = {name + ":x_m"}}),
+            "line 2, column 2 (" + std::string(59, 'a') + "...): \"x\" is no number");
+}
+
 TEST(MeasurementCsv, EndsWithTheFirstFaultsOfMany) {
   std::string text = "time_s,force_n\n";
   for (int k = 0; k < 1000; ++k) text += std::to_string(k) + ",x\n";
