@@ -2,6 +2,7 @@
 #include "jobs/measurements/check_measurement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -52,6 +53,13 @@ std::string shown_text(std::string_view text) {
 }
 
 std::string quoted_text(std::string_view text) { return "\"" + shown_text(text) + "\""; }
+
+std::string describe_time_name_fault(std::string_view name) {
+  constexpr std::array<std::string_view, 5> kOtherTimes{"_ms", "_us", "_ns", "_min", "_h"};
+  const bool is_other = std::ranges::any_of(
+      kOtherTimes, [name](std::string_view end) { return name.ends_with(end); });
+  return is_other || find_unit(name).value_or("s") != "s" ? "the time must be in seconds, as in time_s" : "";
+}
 
 void add_time_faults(std::span<const double> time_s,
                      const std::function<Fault(std::size_t, const std::string&)>& fault_at,

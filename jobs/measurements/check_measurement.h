@@ -28,6 +28,9 @@ inline constexpr const char* kNoGaps = "gaps (NaN, empty cells) are not allowed 
 /// The same in quotes.
 [[nodiscard]] std::string quoted_text(std::string_view text);
 
+/// Fault of a time column whose name ends in a unit other than seconds. Empty if there is none.
+[[nodiscard]] std::string describe_time_name_fault(std::string_view name);
+
 /// Adds the faults of finite times: too few, not strictly increasing.
 /// @param fault_at  makes the fault of one sample from its number, from 0, and its text
 /// @param fault_of_all  fault of the column as a whole

@@ -78,8 +78,10 @@ class ColumnChooser {
     } else if (const auto asked = find(query_.time)) {
       choice_.time = *asked;
     } else {
-      faults_.push_back({"/time", unknown_column(query_.time)});
+      return faults_.push_back({"/time", unknown_column(query_.time)});
     }
+    if (const std::string detail = describe_time_name_fault(names_[choice_.time]); !detail.empty())
+      faults_.push_back({query_.time.empty() ? "" : "/time", place_(choice_.time) + ": " + detail});
   }
 
   /// Names that are not shown as they are, or that the query would split, cannot be asked for.

@@ -173,6 +173,15 @@ TEST(MeasurementCsv, AsksForNamesWithUnits) {
             "/name must be a string of at most 200 bytes");
 }
 
+TEST(MeasurementCsv, TakesATimeInSecondsOnly) {
+  for (const std::string name : {"time_ms", "clock_us", "t_min", "elapsed_h", "force_n", "slider_acceleration_m_s2"}) {
+    const std::string fault = "line 1, column 1 (" + name + "): the time must be in seconds, as in time_s";
+    EXPECT_EQ(csv_refusal(name + ",x_m\n0,1\n1,2\n"), fault);
+    EXPECT_EQ(csv_refusal(name + ",x_m\n0,1\n1,2\n", {.time = name}), "/time " + fault);
+  }
+  for (const std::string name : {"t", "Time (s)", "clock_s"}) EXPECT_EQ(csv_refusal(name + ",x_m\n0,1\n1,2\n"), "");
+}
+
 TEST(MeasurementCsv, AdvisesWhatTheQueryCanSay) {
   EXPECT_THAT(csv_refusal("time_s,\"a,b\"\n0,1\n1,2\n"), HasSubstr("; give the column another name"));
   EXPECT_THAT(csv_refusal("time_s," + std::string(61, 'a') + "\n0,1\n1,2\n"),
