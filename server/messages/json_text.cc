@@ -71,20 +71,33 @@ std::size_t measure_non_finite_word(std::string_view text) {
   return word == kNonFiniteWords.end() ? 0 : word->size();
 }
 
+/// A text in which words are replaced, of the same length but for the shortest word, NaN.
+struct MendedText {
+  std::string text;
+  std::vector<std::size_t> longer;  ///< ends of the words that are a byte longer than before
+
+  /// @param byte  of the text, from 1
+  [[nodiscard]] std::size_t byte_before(std::size_t byte) const {
+    return byte - static_cast<std::size_t>(std::ranges::upper_bound(longer, byte) - longer.begin());
+  }
+};
+
 /// The text with the words NaN and Infinity, which Python and others write for numbers that JSON cannot hold,
 /// as null: then the fault is reported where it stands, as any other value of a wrong type.
-std::string without_non_finite_words(std::string_view text) {
-  std::string result;
+MendedText without_non_finite_words(std::string_view text) {
+  constexpr std::string_view kNull = "null";
+  MendedText result;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (const auto length = in_string ? 0 : measure_non_finite_word(text.substr(i)); length > 0) {
-      result += "null";
+      result.text.append(kNull).append(std::max(length, kNull.size()) - kNull.size(), ' ');
+      if (length < kNull.size()) result.longer.push_back(result.text.size());
       i += length - 1;
       continue;
     }
     if (text[i] == '"') in_string = !in_string;
-    else if (in_string && text[i] == '\\' && i + 1 < text.size()) result += text[i++];
-    result += text[i];
+    else if (in_string && text[i] == '\\' && i + 1 < text.size()) result.text += text[i++];
+    result.text += text[i];
   }
   return result;
 }
@@ -95,7 +108,14 @@ std::string plain_message(const std::string& what) {
   return end == std::string::npos ? what : what.substr(end + 2);
 }
 
-Json parse_strictly(std::string_view text, std::size_t most_values) {
+/// @param mended  where the parser's line and column are not those of the text that was sent
+std::string describe_parse_error(const Json::parse_error& error, const MendedText& mended) {
+  std::string message = plain_message(error.what());
+  if (!mended.longer.empty()) message.erase(0, message.find(": ") + 2);
+  return "not JSON at byte " + std::to_string(mended.byte_before(error.byte)) + ": " + message;
+}
+
+Json parse_strictly(std::string_view text, std::size_t most_values, const MendedText& mended = {}) {
   // Twice: a callback of the parser could watch it, but then the parser looks, for every object that ends, at
   // all before it in their list.
   Bounds bounds(most_values);
@@ -103,7 +123,7 @@ Json parse_strictly(std::string_view text, std::size_t most_values) {
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
-    throw BadJson("not JSON at byte " + std::to_string(error.byte) + ": " + plain_message(error.what()));
+    throw BadJson(describe_parse_error(error, mended));
   } catch (const Json::exception& error) {
     throw BadJson(plain_message(error.what()));
   }
@@ -119,9 +139,9 @@ nlohmann::ordered_json parse_json(std::string_view text, std::size_t most_values
   try {
     return parse_strictly(text, most_values);
   } catch (const BadJson&) {
-    const std::string mended = without_non_finite_words(text);
-    if (mended == text) throw;
-    return parse_strictly(mended, most_values);
+    const MendedText mended = without_non_finite_words(text);
+    if (mended.text == text) throw;
+    return parse_strictly(mended.text, most_values, mended);
   }
 }
 

@@ -71,6 +71,14 @@ TEST(ParseJson, ReadsWordsForWhatIsNoNumberAsNull) {
   EXPECT_NE(message_of("[Nan]"), "accepted");
 }
 
+// The faulty byte is the last one, and words before it have other lengths than null.
+TEST(ParseJson, NamesTheByteBehindWordsForWhatIsNoNumber) {
+  for (const std::string text : {"[NaN, }", "[NaN, NaN, -NaN, }", "[Infinity, -Infinity, }", "[Infinity, NaN, }"}) {
+    const std::string start = "not JSON at byte " + std::to_string(text.size()) + ": ";
+    EXPECT_EQ(message_of(text).substr(0, start.size()), start) << message_of(text);
+  }
+}
+
 TEST(ParseJson, RefusesANulWhereverItStands) {
   EXPECT_EQ(message_of(std::string("{}\0 and more", 12)), "not JSON at byte 3: a NUL character");
   EXPECT_NE(message_of(std::string("[\"\0\"]", 5)), "accepted");
