@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint8_t kOldestVersion = 1;  // has no packed singles and no copies
 constexpr std::uint8_t kVersion = 2;
-constexpr std::size_t kLargestHeader = 1U << 20U;
+constexpr std::size_t kLargestHeader = 1U << 24U;  // the largest linkages have some megabytes of names
 constexpr std::uint64_t kMostSamples = 10'000'000;
 
 // kSingle is of the oldest version: floats, shuffled like doubles.

@@ -57,6 +57,18 @@ TEST(TrajectoryCodec, GivesBackEveryBitThatIsKept) {
   EXPECT_FALSE(back.channels[1].single_precision);
 }
 
+TEST(TrajectoryCodec, GivesBackThousandsOfChannels) {
+  engine::Trajectory run;
+  for (int i = 0; i < 10'000; ++i) {
+    run.channels.push_back({.key = "c" + std::to_string(i), .help = std::string(200, 'h')});
+    run.columns.push_back({0.5 * i, 1.5 * i});
+  }
+  const engine::Trajectory back = jobs::decode_trajectory(bytes_of(jobs::encode_trajectory(run)), {});
+  ASSERT_EQ(back.channels.size(), run.channels.size());
+  EXPECT_EQ(back.channels.back().key, "c9999");
+  EXPECT_EQ(back.columns.back(), run.columns.back());
+}
+
 RC_GTEST_PROP(TrajectoryCodec, GivesBackAnyBits, (const std::vector<std::vector<std::uint64_t>>& random)) {
   engine::Trajectory run;
   const std::size_t samples = random.empty() ? 0 : random.front().size();
