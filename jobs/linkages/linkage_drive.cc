@@ -32,9 +32,12 @@ void check_table(const json& drive, const char* values, const std::string& point
                       "must have one value for each of the " + std::to_string(times.size()) + " times"});
 }
 
-/// Faults of the table of a law that has one.
-void check_table_of_law(const json& drive, engine::Motion motion, const std::string& pointer,
-                        std::vector<Fault>& faults) {
+/// Faults that the keys of a law have together, or that its ranges do not show.
+void check_law(const json& drive, engine::Motion motion, const std::string& pointer,
+               std::vector<Fault>& faults) {
+  if (drive.at("law") == "run_up")
+    if (std::string detail = describe_run_up_fault(drive.value("time_s", 0.0)); !detail.empty())
+      faults.push_back({pointer + "/time_s", std::move(detail)});
   if (drive.at("law") == "table")
     check_table(drive, slides(motion) ? "values_m" : "values_rad", pointer, faults);
   if (drive.at("law") == "velocity_table")
@@ -71,7 +74,12 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
   LinkageFields fields = drive_fields(motion, law);
   if (law == "polynomial") allow_former_key(drive, motion, pointer, fields, faults);
   check_fields(drive, fields, pointer, faults);
-  if (faults.size() == before) check_table_of_law(drive, motion, pointer, faults);
+  if (faults.size() == before) check_law(drive, motion, pointer, faults);
+}
+
+std::string describe_run_up_fault(double time_s) {
+  return time_s == 0.0 || time_s >= 1e-6 ? ""
+                                         : "must be 0 (at full velocity from the start) or at least 1e-6 s";
 }
 
 json canonical_drive(const json& drive, engine::Motion motion) {

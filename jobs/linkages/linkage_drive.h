@@ -17,6 +17,9 @@ namespace jobs {
 void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults);
 
+/// Fault of the time of a run-up that no step resolves; empty if there is none. @param time_s  at least 0
+[[nodiscard]] std::string describe_run_up_fault(double time_s);
+
 /// A drive without faults in the one form in which it is stored: numbers as doubles, present names of keys,
 /// and the default interpolation.
 [[nodiscard]] nlohmann::json canonical_drive(const nlohmann::json& drive, engine::Motion motion);

@@ -344,7 +344,8 @@ LinkageFields drive_fields(engine::Motion motion, std::string_view law) {
          .unit = slides(motion) ? "m/s" : "rad/s",
          .help = "Reached by the cycloidal law, then kept", .required = true});
     add({.key = "time_s", .range = kTime, .unit = "s",
-         .help = "In which it is reached; without it run_up_s of the job, 0: from the start"});
+         .help = "In which it is reached, 0 or at least 1e-6; without it run_up_s of the job, 0: from the "
+                 "start"});
     add(motion_field(motion, "from_m", "from_rad", "Position at t = 0; without it 0", false, kAny));
   } else if (law == "rise_return_pause") {
     add(motion_field(motion, "stroke_m", "stroke_rad", "Length of the rise, and of the return", true, kAny));

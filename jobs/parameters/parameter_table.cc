@@ -121,7 +121,7 @@ void add_drive_rows(Rows& rows) {
   rows.push_back(number({"crank_velocity_rad_s", "crank_velocity", "rad/s", kPaper, "Crank velocity after the run-up"},
                         between(-1000, 1000), &P::crank_velocity));
   rows.push_back(number({"crank_start_rad", "crank_start", "rad", kChosen, "Crank angle at t = 0, from x"}, between(-10, 10), &P::crank_start));
-  rows.push_back(number({"run_up_s", "run_up", "s", kPaper, "Time in which the crank reaches its velocity; the steady window starts here"},
+  rows.push_back(number({"run_up_s", "run_up", "s", kPaper, "Time in which the crank reaches its velocity, 0 or at least 1e-6; the steady window starts here"},
                         between(0, 3600), &P::run_up));
   rows.push_back(number({"rod_start_m", "rod_start", "m", kFitted, "Distance of the S joint from the crank's axis while slider (1,2) rests"},
                         between(-100, 100), &P::rod_start));

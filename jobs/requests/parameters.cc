@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/analysis/linkage_quantities.h"
 #include "engine/errors.h"
@@ -141,6 +142,8 @@ void add_sample_faults(const JobSpec& spec, std::vector<Fault>& faults) {
 }
 
 void add_step_faults(const json& completed, const JobSpec& spec, std::vector<Fault>& faults) {
+  if (std::string detail = describe_run_up_fault(spec.parameters.run_up); !detail.empty())
+    faults.push_back({"/run_up_s", std::move(detail)});
   const double steps = spec.options.duration / number_at(completed, "step_s");
   if (spec.options.integrator == engine::Integrator::kRk4 &&
       steps > static_cast<double>(spec.options.step_limit)) {

@@ -133,6 +133,7 @@ constexpr ParameterFaultCase kParameterFaults[] = {
     // 0.02 and 0.0201 obey the triangle about the origin with I_x = 2e-4, but not with 5e-5.
     {"triangle_broken_about_the_centre", R"({"links": {"1,3": {"inertia_kg_m2": [5e-5, 0.02, 0.0201]}}})",
      "/links/1,3/inertia_kg_m2", "sum of the other two"},
+    {"run_up_of_no_step", R"({"run_up_s": 1e-12})", "/run_up_s", "must be 0 (at full velocity from the start) or"},
     {"ramp_that_falls", R"({"friction": "ambrosio", "friction_velocity_1_m_s": 1e-5})", "/friction_velocity_1_m_s",
      "above friction_velocity_0_m_s"},
 };
