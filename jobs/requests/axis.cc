@@ -5,7 +5,6 @@
 #include <array>
 #include <set>
 
-#include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/parameter_table.h"
@@ -132,15 +131,7 @@ bool is_numeric(const std::string& path) {
                          : is_path_in_description(path) || path.ends_with("mass_kg");
 }
 
-bool is_integer(const std::string& path) {
-  const std::string key = is_path_in_description(path) ? path.substr(path.rfind('.') + 1) : path;
-  const ParameterInfo* info = find_parameter(key);
-  if (info != nullptr) return info->kind == ParameterKind::kInteger;
-  const LinkageFields& beam = beam_fields();
-  return key != path && std::ranges::any_of(beam, [&](const LinkageField& field) {
-    return field.key == key && field.kind == FieldKind::kInteger;
-  });
-}
+bool is_integer(const std::string& path) { return find_whole_range(path).has_value(); }
 
 std::string value_identity(const std::string& path, const json& value) {
   const ParameterInfo* info = find_parameter(path);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <system_error>
 
+#include "jobs/linkages/linkage_fields.h"
 #include "jobs/linkages/linkage_json.h"
 #include "jobs/parameters/link_parameters.h"
 #include "jobs/parameters/parameter_table.h"
@@ -90,6 +91,16 @@ std::vector<std::string> paths_of(const nlohmann::ordered_json& parameters) {
 bool is_path_in_description(std::string_view path) {
   const std::string_view key = path.substr(0, path.find('.'));
   return key.size() < path.size() && (key == kLinkageKey || find_rpsup_drive(key) != nullptr);
+}
+
+std::optional<Range> find_whole_range(std::string_view path) {
+  const bool is_inside = is_path_in_description(path);
+  const std::string_view key = is_inside ? path.substr(path.rfind('.') + 1) : path;
+  if (const ParameterInfo* const info = find_parameter(key))
+    return info->kind == ParameterKind::kInteger ? std::optional(info->range) : std::nullopt;
+  const auto field = std::ranges::find(beam_fields(), key, &LinkageField::key);
+  if (!is_inside || field == beam_fields().end() || field->kind != FieldKind::kInteger) return std::nullopt;
+  return field->range;
 }
 
 std::string describe_description_path_fault(const nlohmann::json& parameters, std::string_view path) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "jobs/parameters/range.h"
 
 namespace jobs {
 
@@ -23,6 +26,10 @@ namespace jobs {
 /// @returns whether a path names a number inside the description of a linkage or of a drive:
 /// "linkage.bodies.rod.mass_kg", "crank_drive.voltage_v"
 [[nodiscard]] bool is_path_in_description(std::string_view path);
+
+/// Range of a path whose values are whole numbers, of a parameter or in a description; empty: they need not
+/// be.
+[[nodiscard]] std::optional<Range> find_whole_range(std::string_view path);
 
 /// Fault of a path that names no number of a description in a parameter set; empty if there is none.
 [[nodiscard]] std::string describe_description_path_fault(const nlohmann::json& parameters,

@@ -322,9 +322,14 @@ std::vector<Fault> find_value_faults(const json& given, const json& beside) {
 }
 
 std::vector<Fault> find_path_faults(const std::string& path, const json& value) {
-  if (is_path_in_description(path))
-    return value.is_number() ? std::vector<Fault>{}
-                             : std::vector<Fault>{{pointer_of_path(path), "must be a number"}};
+  if (is_path_in_description(path)) {
+    const auto whole = find_whole_range(path);
+    std::string detail = whole               ? describe_integer_fault(*whole, value)
+                         : value.is_number() ? ""
+                                             : "must be a number";
+    return detail.empty() ? std::vector<Fault>{}
+                          : std::vector<Fault>{{pointer_of_path(path), std::move(detail)}};
+  }
   json alone = json::object();
   set_at_path(alone, path, value);
   return find_value_faults(alone);

@@ -34,8 +34,8 @@ namespace jobs {
 [[nodiscard]] std::vector<Fault> find_value_faults(const nlohmann::json& given,
                                                    const nlohmann::json& beside = nlohmann::json::object());
 
-/// The faults of the value of one path by itself. A number inside a described linkage is judged with the
-/// whole description.
+/// The faults of the value of one path by itself. A number inside a described linkage that need not be whole
+/// is judged with the whole description.
 [[nodiscard]] std::vector<Fault> find_path_faults(const std::string& path, const nlohmann::json& value);
 
 /// The given values and all defaults, in canonical form. @param given  an object whose values have no faults
