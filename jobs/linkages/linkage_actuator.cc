@@ -234,7 +234,7 @@ void check_body_load(const json& load, const std::string& pointer, std::vector<F
     if (load.contains(effort->key))
       check_effort(load.at(effort->key), *effort, engine::Motion::kRotation, EffortVariables::kTime,
                    pointer + pointer_token(effort->key), faults);
-  if (faults.size() == before && !(direction_of(load).norm() > 0.0))
+  if (faults.size() == before && direction_of(load).isZero(0.0))
     faults.push_back({pointer + "/direction", "must not be 0"});
 }
 
@@ -247,7 +247,7 @@ engine::LinkageLoad read_body_load(const std::string& name, const json& load) {
     const auto at = load.at("at_m").get<std::array<double, 3>>();
     read.at = {at[0], at[1], at[2]};
   }
-  (is_force ? read.force : read.moment) = direction_of(load).normalized();
+  (is_force ? read.force : read.moment) = direction_of(load).stableNormalized();
   read.follows_body = load.value("follows_body", false);
   const EffortKeys& effort = is_force ? force : moment;
   read.law = read_effort(load.at(effort.key), effort, engine::Motion::kRotation).law;

@@ -235,6 +235,8 @@ TEST(BodyLoad, AndTheGroundsAccelerationAreRead) {
   const engine::Linkage linkage = *jobs::to_job_spec(jobs::complete_parameters(given, "")).linkage;
   ASSERT_EQ(linkage.loads.size(), 1U);
   EXPECT_TRUE(linkage.loads[0].force.isApprox(Eigen::Vector3d(0.0, 0.6, 0.8)));
+  given["linkage"]["loads"]["push"]["direction"] = {0, 3e-200, 4e-200};
+  EXPECT_TRUE(jobs::to_job_spec(jobs::complete_parameters(given, "")).linkage->loads[0].force.isApprox(linkage.loads[0].force));
   EXPECT_FALSE(linkage.ground_acceleration[0]);
   EXPECT_EQ(std::get<engine::Harmonic>(*linkage.ground_acceleration[1]).amplitude, 2.0);
   given["linkage"]["ground_acceleration_m_s2"]["w"] = 3;
