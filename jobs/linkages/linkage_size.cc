@@ -52,7 +52,8 @@ std::string describe_size_fault(const LinkageSize& size) {
            " coordinates, of its joints and between the elements of its beams; at most " +
            std::to_string(kMostCoordinates) + " are allowed";
   if (size.constraints > kMostConstraints)
-    return "has joints that close loops by " + std::to_string(size.constraints) + " constraints; at most " +
+    return "has " + std::to_string(size.constraints) +
+           " constraints by joints that close loops or have clearance; at most " +
            std::to_string(kMostConstraints) + " are allowed";
   return "";
 }

@@ -12,7 +12,7 @@ namespace jobs {
 struct LinkageSize {
   std::size_t coordinates = 0;  ///< of the joints that carry bodies, and between the elements of beams
   std::size_t freedoms = 0;     ///< those of the joints alone
-  std::size_t constraints = 0;  ///< by the joints that close loops
+  std::size_t constraints = 0;  ///< by the joints that close loops or have clearance
 };
 
 /// @param description  value of the key "linkage", of the right types

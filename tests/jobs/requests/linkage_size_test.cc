@@ -84,7 +84,7 @@ TEST(LinkageSize, CountsTheElementsOfBeams) {
 TEST(LinkageSize, IsBoundedInConstraints) {
   EXPECT_EQ(refusal_of(chain(1, "revolute", 60)), "");
   EXPECT_EQ(refusal_of(chain(1, "revolute", 61)),
-            "has joints that close loops by 305 constraints; at most 300 are allowed");
+            "has 305 constraints by joints that close loops or have clearance; at most 300 are allowed");
 }
 
 TEST(SweepOfLinkages, MayHaveFewerJobsTheLargerTheLinkage) {
