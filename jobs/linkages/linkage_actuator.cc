@@ -24,8 +24,6 @@ namespace {
 using nlohmann::json;
 using Numbers = std::vector<double>;
 
-constexpr double kLeastStep = 0.999999e-6;  // between the variables of a table, rounded
-
 std::string word_at(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
@@ -56,14 +54,7 @@ void check_effort_table(const json& table, const EffortKeys& effort, engine::Mot
     faults.push_back({pointer, "must have one of " + times + ", " + positions + " and " + velocities});
     return;
   }
-  const auto at = table.at(variable).get<Numbers>();
-  const auto too_close = [](double a, double b) { return !(b - a >= kLeastStep); };
-  if (std::ranges::adjacent_find(at, too_close) != at.end())
-    faults.push_back({pointer + pointer_token(variable), "must rise, each by 1e-6 or more"});
-  if (table.at(effort.values).size() != at.size())
-    faults.push_back(
-        {pointer + pointer_token(effort.values),
-         "must have one value for each of the " + std::to_string(at.size()) + " of " + variable});
+  check_table(table, variable, effort.values, pointer, faults);
 }
 
 /// An effort by a number or by a law. A number that is no number in its range has had its fault.

@@ -18,20 +18,6 @@ namespace {
 using nlohmann::json;
 using Numbers = std::vector<double>;
 
-constexpr double kLeastInterval = 0.999999e-6;  // [s] between the times of a table: a microsecond, rounded
-
-/// @param values  key of the list that has a value for each time
-void check_table(const json& drive, const char* values, const std::string& pointer,
-                 std::vector<Fault>& faults) {
-  const auto times = drive.at("times_s").get<Numbers>();
-  const auto too_close = [](double a, double b) { return !(b - a >= kLeastInterval); };
-  if (std::ranges::adjacent_find(times, too_close) != times.end())
-    faults.push_back({pointer + "/times_s", "must rise, each by 1e-6 s or more"});
-  if (drive.at(values).size() != times.size())
-    faults.push_back({pointer + pointer_token(values),
-                      "must have one value for each of the " + std::to_string(times.size()) + " times"});
-}
-
 /// Faults that the keys of a law have together, or that its ranges do not show.
 void check_law(const json& drive, engine::Motion motion, const std::string& pointer,
                std::vector<Fault>& faults) {
@@ -39,9 +25,9 @@ void check_law(const json& drive, engine::Motion motion, const std::string& poin
     if (std::string detail = describe_run_up_fault(drive.value("time_s", 0.0)); !detail.empty())
       faults.push_back({pointer + "/time_s", std::move(detail)});
   if (drive.at("law") == "table")
-    check_table(drive, slides(motion) ? "values_m" : "values_rad", pointer, faults);
+    check_table(drive, "times_s", slides(motion) ? "values_m" : "values_rad", pointer, faults);
   if (drive.at("law") == "velocity_table")
-    check_table(drive, slides(motion) ? "velocities_m_s" : "velocities_rad_s", pointer, faults);
+    check_table(drive, "times_s", slides(motion) ? "velocities_m_s" : "velocities_rad_s", pointer, faults);
 }
 
 /// Lets the former key stand for the present one, but not beside it.
@@ -75,6 +61,21 @@ void check_drive(const json& drive, engine::Motion motion, const std::string& po
   if (law == "polynomial") allow_former_key(drive, motion, pointer, fields, faults);
   check_fields(drive, fields, pointer, faults);
   if (faults.size() == before) check_law(drive, motion, pointer, faults);
+}
+
+void check_table(const json& table, const std::string& variable, std::string_view values,
+                 const std::string& pointer, std::vector<Fault>& faults) {
+  constexpr double kLeastStep = 0.999999e-6;  // rounded
+  const auto at = table.at(variable).get<Numbers>();
+  const auto too_close = [](double a, double b) { return !(b - a >= kLeastStep); };
+  if (std::ranges::adjacent_find(at, too_close) != at.end())
+    faults.push_back({pointer + pointer_token(variable),
+                      std::string("must rise, each by 1e-6 ") + (variable == "times_s" ? "s " : "") +
+                          "or more"});
+  if (table.at(values).size() != at.size())
+    faults.push_back(
+        {pointer + pointer_token(values),
+         "must have one value for each of the " + std::to_string(at.size()) + " of " + variable});
 }
 
 std::string describe_run_up_fault(double time_s) {

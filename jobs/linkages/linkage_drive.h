@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +17,10 @@ namespace jobs {
 /// The faults of a drive: a law by which a coordinate moves, or an actuator.
 void check_drive(const nlohmann::json& drive, engine::Motion motion, const std::string& pointer,
                  std::vector<Fault>& faults);
+
+/// The faults of a table: its variable rises, with one value for each. @param variable, values  keys of lists
+void check_table(const nlohmann::json& table, const std::string& variable, std::string_view values,
+                 const std::string& pointer, std::vector<Fault>& faults);
 
 /// Fault of the time of a run-up that no step resolves; empty if there is none. @param time_s  at least 0
 [[nodiscard]] std::string describe_run_up_fault(double time_s);
