@@ -196,17 +196,26 @@ class LinkageChecker {
 
   void check_joint(const json& joint, const std::string& pointer) {
     const auto kind = find_joint_kind(joint);
-    LinkageFields fields = joint_fields();
-    if (kind && !closes_loop(joint) && has_one_freedom(*kind))
-      for (LinkageField& field : freedom_fields(freedoms_of(*kind).front().second))
-        fields.push_back(std::move(field));
-    check_fields(joint, fields, pointer, faults_);
+    check_keys_of_joint(joint, kind, pointer);
     check_body_name(joint, "from", pointer);
     check_body_name(joint, "to", pointer);
     if (!kind) return;
     check_kind(joint, *kind, pointer);
     check_clearance(joint, *kind, defaults_, pointer, faults_);
     if (!closes_loop(joint)) check_freedoms(joint, *kind, pointer);
+  }
+
+  void check_keys_of_joint(const json& joint, std::optional<JointKind> kind, const std::string& pointer) {
+    LinkageFields fields = joint_fields();
+    json known = joint;
+    if (kind && has_one_freedom(*kind))
+      for (LinkageField& field : freedom_fields(freedoms_of(*kind).front().second)) {
+        if (!closes_loop(joint)) fields.push_back(std::move(field));
+        else if (known.erase(std::string(field.key)) > 0)
+          fault(pointer + pointer_token(field.key),
+                "belongs to a joint that carries its second body: have the loop cut at another joint");
+      }
+    check_fields(known, fields, pointer, faults_);
   }
 
   [[nodiscard]] static bool has_one_freedom(JointKind kind) { return freedoms_of(kind).size() == 1; }

@@ -56,6 +56,8 @@ constexpr Refusal kRefusals[] = {
     {"carried_twice", R"([{"op": "remove", "path": "/linkage/joints/rocker_pin/closes_loop"},
      {"op": "remove", "path": "/linkage/joints/rocker_pin/to_at_m"}])",
      "/linkage/joints/rocker_pin/to", "closes_loop"},
+    {"damping_where_a_loop_closes", R"([{"op": "add", "path": "/linkage/joints/rocker_pin/damping_n_m_s_rad", "value": 1}])",
+     "/linkage/joints/rocker_pin/damping_n_m_s_rad", "have the loop cut at another joint"},
     {"unknown_kind", R"([{"op": "replace", "path": "/linkage/joints/rocker/kind", "value": "hinge"},
      {"op": "remove", "path": "/linkage/joints/rocker/guess_rad"}])",
      "/linkage/joints/rocker/kind", "revolute"},
