@@ -43,7 +43,9 @@ std::string describe_channel_name_fault(std::string_view name) {
 
 std::string shown_text(std::string_view text) {
   constexpr std::size_t kLongest = 60;
-  const auto is_inside = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U; };
+  const auto is_inside = [&](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
+  };
   std::size_t end = std::min(text.size(), kLongest);
   while (end > 0 && end < text.size() && is_inside(end)) --end;
   std::string shown(text.substr(0, end));
