@@ -51,12 +51,11 @@ std::vector<std::string> metric_keys_of(const json& request) {
   bool is_shared = cases.empty();
   std::vector<std::string> keys;
   for (const json& each : cases) {
-    if (each.contains(kLinkageKey)) {
-      add_keys(request, parameters_of_case(common, each), keys);
-    } else {
-      is_shared = true;
-      add_clearances(each, shared);
-    }
+    const bool has_own = each.contains(kLinkageKey);
+    json own = has_own ? whole_parameters_of(common, each) : json();
+    add_clearances(each, has_own ? own : shared);
+    if (has_own) add_keys(request, std::move(own), keys);
+    else is_shared = true;
   }
   if (is_shared) add_keys(request, std::move(shared), keys);
   return keys;

@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
                     RefusalCase{"CasesBehindRepeatedOnes",
                                 R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 2}]})",
                                 R"({"cases": [{"clearance_mm": 1}, {"clearance_mm": 1}, {"clearance_mm": 2},
-                                              {"clearance_mm": 900}, {"clearance_mm": 3}]})",
+                                              {"clearance_mm": 900}, {"clearance_mm": 1.5}]})",
                                 {"/cases/3/clearance_mm"}}),
     [](const auto& tested) { return tested.param.name; });
 
