@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 #include "jobs/base/errors.h"
@@ -182,6 +183,19 @@ std::vector<ReplicateStatistics> compare_replicates(const std::vector<ResultRow>
   return calc_statistics_by_row(values);
 }
 
+/// Metrics of a sweep; those that its jobs have where a former version took what this one refuses.
+std::vector<std::string> find_metric_keys(const json& request, const std::vector<ResultRow>& rows) {
+  try {
+    return metric_keys_of(request);
+  } catch (const InvalidRequest&) {
+    std::set<std::string> keys;
+    for (const ResultRow& row : rows)
+      if (row.metrics)
+        for (const auto& [key, value] : stored_json(*row.metrics).items()) keys.insert(key);
+    return {keys.begin(), keys.end()};
+  }
+}
+
 }  // namespace
 
 std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
@@ -301,7 +315,7 @@ ResultTable result_table(const SweepResults& results, const std::vector<std::str
   ResultTable table{.columns = {"job_id", "state"}, .rows = {}, .ended = has_ended(sweep.counts)};
   if (sweep.replicated) table.columns.emplace_back("replicate");
   table.columns.insert(table.columns.end(), swept.begin(), swept.end());
-  const std::vector<std::string> keys = metric_keys_of(request);
+  const std::vector<std::string> keys = find_metric_keys(request, results.rows);
   const MetricColumns metrics = metric_columns(keys, table.columns.size());
   table.columns.insert(table.columns.end(), keys.begin(), keys.end());
   static_cast<void>(choose_metric(table, replicate_metric));

@@ -96,6 +96,23 @@ TEST(Service, ShowsAJobWithAllItsParameters) {
   EXPECT_EQ(job.at("links").at("sweep"), "/v1/sweeps/" + sweep);
 }
 
+// A former version took it: its results stay readable.
+TEST(Service, ShowsResultsOfARequestThatIsRefusedNow) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  std::string id;
+  {
+    jobs::Service service(options_of(store, engine, 2));
+    id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [5, 10]}})");
+    finished(service, id);
+  }
+  execute_sql(store.file(), "UPDATE sweeps SET request = json_set(request, '$.parameters', json('{\"linkage\": 5}'))");
+  jobs::Service service(options_of(store, engine, 2));
+  const auto results = service.find_results(id).value();
+  EXPECT_EQ(results.rows.size(), 2U);
+  EXPECT_NE(std::ranges::find(results.columns, "peak_slider_acceleration_m_s2"), results.columns.end());
+}
+
 TEST(Service, TakesSingleJobs) {
   const TemporaryStore store;
   FakeEngine engine;
