@@ -60,7 +60,8 @@ Response response_of(const ResultTable& results, const RowGroup& group, std::siz
 struct WholeBlocks {
   UnitPoints points;
   std::vector<double> values;
-  double within = 0.0;    ///< mean variance between replicates, of points with two values or more
+  /// Mean variance between replicates, of points with two values or more; empty: there are none such.
+  std::optional<double> within;
   double of_means = 0.0;  ///< mean variance of their means by that alone
   std::size_t blocks = 0, missing = 0;
 };
@@ -71,10 +72,12 @@ bool is_whole_block(const Response& response, std::size_t first, std::size_t wid
 }
 
 void set_scatter(const Response& replicated, WholeBlocks& whole) {
+  if (replicated.empty()) return;
   const auto count = static_cast<double>(replicated.size());
+  whole.within = 0.0;
   for (const ReplicateStatistics& point : replicated) {
     const double variance = *point.spread * *point.spread / count;
-    whole.within += variance;
+    *whole.within += variance;
     whole.of_means += variance / static_cast<double>(point.count);
   }
 }
@@ -101,9 +104,9 @@ WholeBlocks whole_blocks_of(const UnitPoints& points, const Response& response, 
 /// The part of a single run's variance that lies between replicates; null without them, or where nothing
 /// varies. The means of the points vary by that, too.
 json noise_of(const WholeBlocks& whole, const ReplicateStatistics& all) {
-  if (!(whole.within > 0.0) || !all.spread || *all.spread == 0.0) return nullptr;
+  if (!whole.within || !all.spread || *all.spread == 0.0) return nullptr;
   const double between = std::max(0.0, *all.spread * *all.spread - whole.of_means);
-  return whole.within / (whole.within + between);
+  return *whole.within / (*whole.within + between);
 }
 
 void append(const Estimate& estimate, std::vector<json>& cells) {

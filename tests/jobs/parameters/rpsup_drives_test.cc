@@ -75,7 +75,7 @@ constexpr Refused kRefused[] = {
     {"unit_of_the_other_motion", R"({"parameters": {"rod_drive": {"law": "run_up", "velocity_m_s": 0, "from_rad": 1}}})",
      "/parameters/rod_drive/from_rad", "from_m"},
     {"fewer_velocities", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [1, 2, 3]}}})",
-     "/parameters/crank_drive/velocities_rad_s", "each of the 2 times"},
+     "/parameters/crank_drive/velocities_rad_s", "each of the 2 of times_s"},
     {"one_velocity", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 1], "velocities_rad_s": [1]}}})",
      "/parameters/crank_drive/velocities_rad_s", "2 to 10,000 numbers"},
     {"times_that_fall", R"({"parameters": {"crank_drive": {"law": "velocity_table", "times_s": [0, 0], "velocities_rad_s": [1, 1]}}})",
