@@ -35,7 +35,7 @@ std::string make_script(const Site& site, const std::filesystem::path& program,
   if (!site.prologue.empty()) script += "{\n" + site.prologue + "\n} || exit\n";
   if (has_portable_numerics()) script += "export GLIBC_TUNABLES=" + shell_quoted(portable_tunables()) + "\n";
   // A task has all options from the service: a fault in the user's configuration must not fail it.
-  return script + "exec " + shell_quoted(program.string()) + " --config /dev/null " + arguments + "\n";
+  return script + "exec " + shell_quoted(program.string()) + " " + arguments + " --config /dev/null\n";
 }
 
 std::string tail_of(const std::filesystem::path& file, std::size_t most_bytes) {
