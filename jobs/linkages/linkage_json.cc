@@ -23,17 +23,6 @@ json with_doubles(const json& value) {
   return made;
 }
 
-/// "bodies.rod.mass" -> "bodies", "rod", "mass"
-std::vector<std::string> parts_of_field(std::string_view field) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= field.size();) {
-    const std::size_t dot = std::min(field.find('.', start), field.size());
-    parts.emplace_back(field.substr(start, dot - start));
-    start = dot + 1;
-  }
-  return parts;
-}
-
 /// Place of a body or joint of the engine. A universal joint with clearance is two joints and a body there.
 std::string pointer_of_part(const std::string& kind, const std::string& name, const json& description) {
   if (description.contains(kind) && description.at(kind).contains(name))
@@ -47,6 +36,16 @@ std::string pointer_of_part(const std::string& kind, const std::string& name, co
 
 }  // namespace
 
+std::vector<std::string> parts_of_path(std::string_view path) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', start), path.size());
+    parts.emplace_back(path.substr(start, dot - start));
+    start = dot + 1;
+  }
+  return parts;
+}
+
 bool describes_linkage(const json& parameters) {
   const auto found = parameters.find(kLinkageKey);
   return found != parameters.end() && found->is_object();
@@ -59,7 +58,7 @@ std::optional<engine::Linkage> read_linkage(const json& description, const engin
 }
 
 std::string pointer_of_linkage_field(std::string_view field, const json& description) {
-  const std::vector<std::string> parts = parts_of_field(field);
+  const std::vector<std::string> parts = parts_of_path(field);
   std::string pointer = "/linkage";
   if (parts.size() < 2) return pointer + (field.empty() ? "" : pointer_token(field));
   pointer += pointer_of_part(parts[0], parts[1], description);

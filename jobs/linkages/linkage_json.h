@@ -28,6 +28,9 @@ inline constexpr std::string_view kRpsupName = "rpsup";
                                                           const engine::RpsupParameters& defaults,
                                                           std::vector<Fault>& faults);
 
+/// "bodies.rod.mass_kg" -> "bodies", "rod", "mass_kg".
+[[nodiscard]] std::vector<std::string> parts_of_path(std::string_view path);
+
 /// Pointer into the description for a fault's field of engine::check_linkage: "bodies.rod.mass" ->
 /// "/linkage/bodies/rod/mass_kg".
 [[nodiscard]] std::string pointer_of_linkage_field(std::string_view field, const nlohmann::json& description);

@@ -26,17 +26,6 @@ std::vector<std::string> make_known_paths() {
   return paths;
 }
 
-/// "links.1,3.mass_kg" -> "links", "1,3", "mass_kg".
-std::vector<std::string> parts_of(std::string_view path) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= path.size();) {
-    const std::size_t dot = std::min(path.find('.', start), path.size());
-    parts.emplace_back(path.substr(start, dot - start));
-    start = dot + 1;
-  }
-  return parts;
-}
-
 /// The member or element of that name; null if there is none. Of a list only indices that it has are known:
 /// JSON pointers would make others.
 const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& part) {
@@ -54,7 +43,7 @@ const nlohmann::json* find_part(const nlohmann::json& whole, const std::string& 
 /// Value at a path; null if there is none.
 const nlohmann::json* find_at(const nlohmann::json& parameters, std::string_view path) {
   const nlohmann::json* found = &parameters;
-  for (const std::string& part : parts_of(path)) {
+  for (const std::string& part : parts_of_path(path)) {
     found = find_part(*found, part);
     if (found == nullptr) break;
   }
@@ -114,7 +103,7 @@ std::string describe_description_path_fault(const nlohmann::json& parameters, st
 
 std::string pointer_of_path(std::string_view path) {
   std::string pointer;
-  for (const std::string& part : parts_of(path)) pointer += pointer_token(part);
+  for (const std::string& part : parts_of_path(path)) pointer += pointer_token(part);
   return pointer;
 }
 
@@ -128,7 +117,7 @@ std::string path_of_pointer(std::string_view pointer) {
 
 void set_at_path(nlohmann::json& parameters, std::string_view path, const nlohmann::json& value) {
   nlohmann::json* target = &parameters;
-  for (const std::string& part : parts_of(path))
+  for (const std::string& part : parts_of_path(path))
     target = target->is_array() ? &target->at(std::stoul(part)) : &(*target)[part];
   *target = value;
 }

@@ -21,13 +21,19 @@ Mechanism make_rod() {
   return m;
 }
 
+Evaluation evaluate_at_zero(MotionSystem& system) {
+  Evaluation at = system.make_evaluation();
+  const Eigen::VectorXd y = system.make_state(at.q, at.qd);
+  Eigen::VectorXd f(y.size());
+  EXPECT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
+  return at;
+}
+
 TEST(Tolerance, MeasuresARotationAtTheRadiusOfGyrationOfWhatItCarries) {
   const Mechanism rod = make_rod();
   MotionSystem system(rod);
-  Evaluation at = system.make_evaluation();
-  Eigen::VectorXd y = system.make_state(at.q, at.qd);
-  Eigen::VectorXd f(y.size());
-  ASSERT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
+  const Evaluation at = evaluate_at_zero(system);
+  const Eigen::VectorXd y = system.make_state(at.q, at.qd);
   Tolerance tolerance(1e-3, 1e-6);
   const Eigen::VectorXd error = Eigen::VectorXd::Constant(y.size(), 1e-5);
   EXPECT_NEAR(tolerance.measure(error, 0.0 * y, 0.0 * y, system.error_weights()), 10.0, 1e-12);
@@ -41,10 +47,7 @@ TEST(Tolerance, TakesNoSpeedFromACoordinateOfNoJoint) {
   rod.coordinates.push_back({.name = "charge", .role = CoordinateRole::kCharge, .placement = {}, .axis = Axis::kZ, .mass = 1.0,
                              .inertia = 1e-3 * Eigen::Matrix3d::Identity()});
   MotionSystem system(rod);
-  Evaluation at = system.make_evaluation();
-  Eigen::VectorXd y = system.make_state(at.q, at.qd);
-  Eigen::VectorXd f(y.size());
-  ASSERT_EQ(system.calc_derivative(0.0, y, f, at), EvaluationStatus::kOk);
+  const Evaluation at = evaluate_at_zero(system);
   Tolerance tolerance(1e-3, 1e-6);
   tolerance.set_radii(rod, system.free_coordinates(), at.frames);
   EXPECT_NEAR(tolerance.calc_speed(Eigen::Vector2d(2.0, 0.0)), 2.0 * 0.5, 1e-12);

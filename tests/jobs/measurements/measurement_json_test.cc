@@ -108,7 +108,7 @@ TEST(MeasurementJson, RefusesWithAPointer) {
   EXPECT_EQ(faults_of([] { static_cast<void>(jobs::read_measurement_json(request_of("[]"))); }).size(), 1U);
 }
 
-// What is no number has no order.
+// Times that are no numbers have no order, whose fault would be a second one.
 TEST(MeasurementJson, NamesAFaultOfTheTimeOnce) {
   for (const json& times : {json{0, nullptr, 0.2}, json(), json{0.1, "0.2", 0.3}}) {
     json request = json_of(kMeasuredJson);
