@@ -64,7 +64,7 @@ export class RowWindow {
     const { length } = this.rows;
     if (length <= fewRows) return [0, length];
     const seen = Math.ceil((this.scroll.clientHeight || 600) / this.rowHeight);
-    // Of fewer rows than before, what is scrolled to may be behind the last one.
+    // The place scrolled to may be behind the last row, if there are fewer rows than before.
     const top = Math.min(Math.floor(this.scroll.scrollTop / this.rowHeight), Math.max(0, length - seen));
     // In steps of half of what stands around: most frames of a scroll draw nothing.
     const first = Math.max(0, Math.floor((top - around) / (around / 2)) * (around / 2));
