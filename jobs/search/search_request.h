@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kDefaultFirst = 5;
 inline constexpr Range kQuantileRange{.minimum = 0.0, .maximum = 1.0, .lower = Bound::kExclusive};
 inline constexpr Range kToleranceRange{.minimum = 0.0, .lower = Bound::kExclusive};
 
-/// Request of a search: the largest value of a parameter for which a metric stays below a bound, for each
+/// Request of a search: the last value of a parameter before a metric first exceeds its bound, for each
 /// combination of the axes.
 struct SearchRequest {
   SweepRequest common;    ///< name, parameters, axes, replicates, reuse and priority of all jobs

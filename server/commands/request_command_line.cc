@@ -26,7 +26,7 @@ struct RequestCommand {
 
 constexpr std::array<RequestCommand, 5> kRequestCommands{
     {{"sweep", "Compute a sweep", Kind::kSweep},
-     {"search", "Look for the largest value of a parameter for which a metric stays within a bound",
+     {"search", "Look for the limit of a parameter: the last value before a metric first exceeds its bound",
       Kind::kSearch},
      {"wear", "Let the bearing wear over hours", Kind::kWearStudy},
      {"optimise", "Look for the parameters of the least or largest metrics", Kind::kOptimisation},

@@ -28,7 +28,7 @@ function aimOf({ parameter, metric, bound }) {
 
 const kind = {
   api: searches, route: "searches", title: "Limits",
-  question: "Largest value of a parameter for which a metric stays within a bound.", listName: "Searches",
+  question: "Limit of a parameter: the last value before a metric first exceeds its bound.", listName: "Searches",
     nouns: ["search", "searches"],
   aim: { heading: "Target", textOf: aimOf }, answerOf: shortAnswerOf, none: "No searches yet.",
     begin: "New search",
