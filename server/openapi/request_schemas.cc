@@ -125,7 +125,9 @@ Json make_replicates() {
         described({{"allOf", Json::array({ref("Lists")})}},
                   "lists of values by parameter: sets without one of them are run once")}},
       {"perturbation", "seed", "only", "tolerance_factor"});
-  replicates["description"] = "each set again with its contact stiffness changed by that relative amount";
+  replicates["description"] =
+      "count runs of each set: run 0 is unperturbed, every other one has its contact stiffness changed by a "
+      "random fraction of perturbation, up or down";
   return replicates;
 }
 

@@ -6,7 +6,7 @@ import { routeTo } from "/core/route.js";
 
 const words = [["Job", "One simulation."],
   ["Sweep", "A set of jobs over lists of values: a job for every combination."],
-  ["Replicates", "Runs of the same job with a slightly different contact stiffness. Their spread shows how far a value scatters."],
+  ["Replicates", "Runs of the same job, all but the first with a slightly different contact stiffness. Their spread shows how far a value scatters."],
   ["Metric", "One number of a job, such as a peak. Point at its name, or touch it, to read what it is."],
   ["Channel", "One quantity of a job over time."],
     ["Run-up", "Time at the start of a job that metrics of the steady part leave out."],
