@@ -300,8 +300,9 @@ void describe(CLI::App& app, const std::vector<Command>& remote) {
   add_config_option(app);
   app.require_subcommand(1);
   app.footer(
-      "Each option can also be given in the environment (see the names above) or in the --config file. The "
-      "command line takes precedence over the environment, and the environment over the file.\n"
+      "An option that shows (Env:NAME) can also be set in the environment. The --config file takes options "
+      "without their dashes. The command line takes precedence over the environment, and the environment "
+      "over the file.\n"
       "Exit codes: 0 done, 1 a job (or a comparison) failed, 2 bad input, 3 the machine or the network "
       "failed (disk, port, store in use, service not reached), 130 interrupted.");
 }
