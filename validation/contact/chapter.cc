@@ -12,7 +12,7 @@ integration with its location of contacts and its latches. The ring of elements 
 integral. Tilted and shifted journals at rest are compared with statics. A ring of elements is not the closed
 form with other numbers: each element has the damping of its own onset and a bristle of its own. The sections
 `elements_damp_each_from_its_own_onset`, `elements_bend_each_its_own_bristle` and `whole_runs_with_elements`
-show the effect. Section `the_study_with_other_laws` runs the study with each contact law and each friction
+show the effect. Section `the_study_with_other_laws` runs the sweep with each contact law and each friction
 law.)",
           .parts = {{"hertz_stiffness_of_the_bore", compute_hertz_stiffness},
                     {"rebounds_obey_the_closed_form", compute_rebounds},

@@ -17,7 +17,7 @@ slopes of the engine's own energies give the same terms.
 
 States are random, with fixed seeds. Angles cover the whole turn, but the second of three angles in a row
 stays within 70 degrees, because the three are singular at 90. Slides stay within 0.3 m, rates within
-10 rad/s and 2 m/s. The linkage is the study's with a crank of 0.18 m and the guide at y = 0.03 m,
+10 rad/s and 2 m/s. The linkage is the paper's with a crank of 0.18 m and the guide at y = 0.03 m,
 z = 0.17 m: no two lengths are equal, so an exchange of two lengths shows. Unless a case says otherwise, the
 yoke turns about the guide and gravity acts along -z, the crank's axis.)",
           .parts = {{"mass_coriolis_gravity_and_springs_equal_the_trace_form", compute_trace_form},

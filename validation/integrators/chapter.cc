@@ -21,7 +21,7 @@ all but `rk4` end where a ring of the journal meets or leaves the bore, and wher
 - Where a case converges, all methods give the same peak at the same instant. The comparison uses the second
   geometry, which other codes ran as well; its rod follows the cycloidal law, so that `rk4` meets no jumps.
   Flexible cases of the second geometry above 5 rad/s converge with no method: their peaks are samples,
-  reported as distributions. A table of its own compares `dopri5` and the default on the study's geometry.
+  reported as distributions. A table of its own compares `dopri5` and the default on the paper's geometry.
 
 Cost is counted in evaluations of the equations of motion, the same on every machine; run time is
 proportional to it. The linear systems of `radau5` cost about half as much again; the Jacobian of `rodas5`,
@@ -31,7 +31,7 @@ joints with clearance:
 
 | case | divisor |
 |---|---|
-| the study's friction | 2 |
+| the paper's friction | 2 |
 | worn bores | 7.5 |
 | stiffer bristles, or no friction | 30 |
 | stiffer bristles or no friction, contact elements | 7.5 |
@@ -54,7 +54,7 @@ Section `work_and_precision` compares cost and error. `dopri5` at 1e-6, with 1e-
 decade at which both of its cases are right to five digits. At 10 rad/s, where hard impacts make the peak,
 `rk4` needs more work for a worse peak: the `note` of the table gives the ratios. At 5 rad/s, where the
 journal stays on the bore, `rk4` is as good for its work. `rk4` cannot tell that its step is too long. A
-tighter tolerance costs more and changes nothing in the study's results.)",
+tighter tolerance costs more and changes nothing in the paper's sweep.)",
           .parts = {{"order_on_a_pendulum", compute_order_on_a_pendulum},
                     {"order_on_the_ideal_linkage", compute_order_on_the_linkage},
                     {"instants_of_contact", compute_contact_instants},

@@ -14,18 +14,18 @@ of degree 6) are the poses, velocities and accelerations of all links. Newton's 
 link, then give the reactions of the joint, the torque of the crank and the force of the rod. The reference
 uses no part of the engine.
 
-In the study's geometry the cross link turns about the slider's guide, gravity acts along the crank's axis,
+In the paper's geometry the cross link turns about the slider's guide, gravity acts along the crank's axis,
 and the rod follows its cosine law. The acceleration of this law jumps where a rise begins and where a return
-ends; a sample at a jump belongs to the time before. In the second geometry, which other codes ran (chapter
-8), the cross link turns across the guide, gravity acts across the crank's axis, and the rod follows the
-cycloidal law. `rk4` does not end its steps at jumps, so its cases have the cycloidal law.
+ends; a sample at a jump belongs to the time before. In the second geometry (chapter Other codes) the cross
+link turns across the guide, gravity acts across the crank's axis, and the rod follows the cycloidal law.
+`rk4` does not end its steps at jumps, so its cases have the cycloidal law.
 
 Integrated constraints (multipliers with Baumgarte's stabilisation, alpha = beta = 100 1/s) drift a little.
 The bound of the drift is known beforehand. Let gamma be the acceleration with which the constraints would
-open at constant rates. A step h of `rk4` leaves e_q = alpha beta^2 gamma h^5 / 48 in Phi and
-e_v = (alpha^2 beta^2 / 24 - beta^4 / 96) gamma h^5 in its rate, and rounding adds to both. The stabilisation
-keeps at most (2 alpha e_q + e_v) / (h beta^2) of all steps' errors in Phi, and (e_q + 2 e_v / (e alpha)) / h
-in its rate. At 0.1 ms both parts are about 1e-12 m. At 0.01 ms only rounding is left, and shorter steps
+open at constant rates. A step h of `rk4` leaves eps_q = alpha beta^2 gamma h^5 / 48 in Phi and
+eps_v = (alpha^2 beta^2 / 24 - beta^4 / 96) gamma h^5 in its rate, and rounding adds to both. The
+stabilisation keeps at most (2 alpha eps_q + eps_v) / (h beta^2) of all steps' errors in Phi, and
+(eps_q + 2 eps_v / (exp(1) alpha)) / h in its rate. At 0.1 ms both parts are about 1e-12 m. At 0.01 ms only rounding is left, and shorter steps
 leave more of it. With the flexible coupler the steps of `rk4` are 0.05 ms at most.)",
       .parts = {{"drive_laws_have_their_features", compute_drive_laws},
                 {"slider_follows_the_closed_form", compute_closed_form},

@@ -133,9 +133,9 @@ Chapter other_codes_chapter() {
   return {.name = "other_codes",
           .title = "Other codes",
           .text = R"(General multibody programs that share no line with this one run the whole model. MuJoCo
-and Simbody run the study's linkage (`script/bench codes`). Six codes ran the second geometry: the cross link
-turns across the guide, the crank's axis is level, the guide lies 0.2 m beside it, and the rod rises by
-0.05 m from 0.2 m on by the cycloidal law.)",
+and Simbody run the paper's linkage (`script/bench codes`). Six codes, whose names are not recorded, ran the
+second geometry: the cross link turns across the guide, the crank's axis is level, the guide lies 0.2 m
+beside it, and the rod rises by 0.05 m from 0.2 m on by the cycloidal law.)",
           .parts = {{.name = "first_milliseconds_of_simbody", .compute = first_milliseconds_of_simbody},
                     {.name = "peak_of_six_codes", .compute = peak_of_six_codes},
                     {.name = "peaks_of_mujoco_and_simbody", .compute = peaks_of_mujoco_and_simbody}}};

@@ -20,14 +20,14 @@ void add_options(CLI::App& app, validation::program::ValidateOptions& options) {
   app.add_option("--check", options.check, "Report that must agree with this run, with rows.csv beside it")
       ->type_name("FILE")
       ->envname("RPSUP_CHECK");
-  app.add_option("--db", options.store, "SQLite file for the study's jobs; a temporary one if left out")
+  app.add_option("--db", options.store, "SQLite file for the jobs of the paper's sweep; a temporary one if left out")
       ->type_name("FILE")
       ->envname("RPSUP_STUDY_DB");
   app.add_option("--threads", options.threads, "Jobs computed at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->envname("RPSUP_THREADS");
-  app.add_flag("--quick", options.quick, "Only light parts: without the study")->envname("RPSUP_QUICK");
+  app.add_flag("--quick", options.quick, "Only light parts: without the paper's sweep")->envname("RPSUP_QUICK");
   app.footer(
       "Exit codes: 0 all within their bounds, 1 a comparison failed or the report differs, 2 bad input, "
       "3 the machine failed, 130 interrupted.");

@@ -17,8 +17,9 @@ constexpr const char* kTitle = "# Why the numbers may be believed";
 constexpr const char* kIntroduction =
     R"(The validation compares results of the engine with results that the engine did not compute: closed
 forms, published numbers, other codes. Some rows use a second route instead, and say so: energies of the
-engine, another integrator, another way to enforce the drives, other tolerances. Each comparison has a bound
-and a reason for the bound: rounding, truncation, or the number of known digits.
+engine, another integrator, another way to enforce the drives, other tolerances. No row compares a joint with
+clearance with a measurement in a laboratory. Each comparison has a bound and a reason for the bound: rounding,
+truncation, or the number of known digits.
 
 [rows.csv](rows.csv) holds all rows. A row begins with the names of its chapter and its section:
 
@@ -32,9 +33,9 @@ where only the `difference` makes sense, of matrices for instance. The column `h
 difference is within its `bound`, and `note` gives the reason for the bound. A row without bound is a number
 of a table; the `note` of the table's first row explains the table.
 
-`rpsup-validate --report validation/VALIDATION.md` writes this report, the rows and the figures. A test runs
-`rpsup-validate --check validation/VALIDATION.md`, which computes all again and compares every line. Each
-section of chapters 1 to 8 is also a test of its own, for example
+`build/release/rpsup-validate --report FILE` overwrites FILE with this report, and rows and figures beside
+it. A test runs `--check FILE`, which computes all again and compares every line. `--quick` computes the light
+rows and writes no report. Each section of chapters 1 to 10 is also a test of its own, for example
 `engine_tests --gtest_filter='*/rebounds_obey_the_closed_form'`. [FITS.md](FITS.md) tries fits.
 )";
 

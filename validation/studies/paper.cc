@@ -105,7 +105,7 @@ numbers for which all four ratios come within 20 % and both orders hold at 15 ra
 says of each default whether it is printed, deduced, fitted or chosen.
 
 So the model is consistent with the ratios; it does not predict them: about ten fitted values meet four
-numbers. Nearly all peaks converge: chapters 7 and 10 compare integrators and replicates. At 10 rad/s neither
+ratios and two orders. Nearly all peaks converge (chapters Integrators and Sensitivity). At 10 rad/s neither
 order holds: peaks are larger with 0.5 mm, and with a flexible coupler. There the journal leaves its bore for
 short flights only; at 15 rad/s it hops.
 

@@ -69,10 +69,10 @@ charts::Chart draw_input(const Study& study, const char* title, const char* chan
 Figure draw_inputs(const Study& study) {
   const std::vector<charts::Chart> charts{
       draw_input(study, "(a) crank (1,1)", "crank_velocity_rad_s", "velocity, rad/s", {0, 1, 2, 3}),
-      draw_input(study, "(b) slider (1,2)", "rod_displacement_m", "displacement, m", {0})};
+      draw_input(study, "(b) sliding rod (1,2)", "rod_displacement_m", "displacement, m", {0})};
   return {"fig4.svg",
-          "The paper's Fig. 4: (a) crank (1,1) reaches its velocity in 2 s; (b) slider (1,2) goes out and "
-          "back in 1 s and pauses for 0.5 s",
+          "The paper's Fig. 4: (a) crank (1,1) reaches its velocity in 2 s; (b) sliding rod (1,2) goes "
+          "out and back in 1 s and pauses for 0.5 s",
           charts::draw(charts, 2)};
 }
 

@@ -68,14 +68,12 @@ ComputedChapter sensitivity(const Study& study) {
            .text = R"(A joint with clearance may be chaotic: runs that differ by rounding part, until their
 peaks share no more than a distribution. Replicates show such cases: the same run again, with the contact
 stiffness changed by a relative 1e-6, far less than anyone knows it. Where the spread stays small, the peak
-is a property of the case. Below 15 rad/s this is so for all peaks of the study, with a flexible coupler as
+is a property of the case. Below 15 rad/s this is so for all peaks of the sweep, with a flexible coupler as
 well, and default tolerances find these peaks. At 15 rad/s the spread grows with the errors of the
 integrator: a grazing contact is met or missed, and the peak is one of two that differ by 1 or 2 %. There the
 median of some replicates is the better number.
 
-A sweep asks for replicates with `"replicates": {"count": 5, "perturbation": 1e-6}`, and with
-`"only": {"crank_velocity_rad_s": [15]}` beside it for replicates of some cases alone. The results carry
-count, mean, spread (standard deviation), min and max.)",
+[server/API.md](../server/API.md#replicates) tells how a sweep asks for replicates.)",
            .parts = {}},
           {findings}};
 }
