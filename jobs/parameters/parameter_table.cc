@@ -110,7 +110,7 @@ void add_run_rows(Rows& rows) {
        {"rk4", engine::Integrator::kRk4}}));
   rows.push_back(number({"step_s", "step", "s", kChosen, "Step of rk4"}, between(1e-8, 1e-3), &O::step));
   rows.push_back(number({"relative_tolerance", "relative_tolerance", "", kChosen,
-                         "Of the error-controlled integrators; auto takes less with clearance, by 2 to 30 times"},
+                         "Of the error-controlled integrators; auto divides it by up to 30 with clearance, and takes at most 1e-9 there with friction without bristles"},
                         between(1e-13, 1e-2), &O::relative_tolerance));
   rows.push_back(number({"absolute_tolerance", "absolute_tolerance", "", kChosen,
                          "Of the error-controlled integrators, in m, rad and their rates; of the L-stable ones in m and m/s, rotations by the radius of gyration of what they carry"},
@@ -123,9 +123,9 @@ void add_drive_rows(Rows& rows) {
   rows.push_back(number({"crank_start_rad", "crank_start", "rad", kChosen, "Crank angle at t = 0, from x"}, between(-10, 10), &P::crank_start));
   rows.push_back(number({"run_up_s", "run_up", "s", kPaper, "Time in which the crank reaches its velocity, 0 or at least 1e-6; the steady window starts here"},
                         between(0, 3600), &P::run_up));
-  rows.push_back(number({"rod_start_m", "rod_start", "m", kFitted, "Distance of the S joint from the crank's axis while slider (1,2) rests"},
+  rows.push_back(number({"rod_start_m", "rod_start", "m", kFitted, "Distance of the S joint from the crank's axis while sliding rod (1,2) rests"},
                         between(-100, 100), &P::rod_start));
-  rows.push_back(number({"rod_stroke_mm", "rod_stroke", "mm", kFitted, "Stroke of slider (1,2) in the crank, outwards if above 0"},
+  rows.push_back(number({"rod_stroke_mm", "rod_stroke", "mm", kFitted, "Stroke of sliding rod (1,2) in the crank, outwards if above 0"},
                         between(-10'000, 10'000), &P::rod_stroke, kMmPerM));
   rows.push_back(number({"rod_stroke_time_s", "rod_stroke_time", "s", kFitted, "Time of the stroke's rise, and of its return"},
                         between(1e-3, 3600), &P::rod_stroke_time));
