@@ -115,7 +115,7 @@ void add_motion_channels(const RpsupLayout& layout, std::vector<Channel>& channe
   add_reading(channels, "crank_velocity_rad_s", "Angular velocity of the crank", rate(layout.crank),
               "ψ̇^(1,1)");
   add_reading(channels, "rod_displacement_m",
-              "Displacement of the telescoping rod, link (1,2), along the crank", position(layout.rod),
+              "Displacement of the sliding rod, link (1,2), along the crank", position(layout.rod),
               "z^(1,2)");
   add_slider_channels(layout.slider, channels);
 }
@@ -159,7 +159,7 @@ void add_drive_channels(const Rpsup& rpsup, std::vector<Channel>& channels) {
                          rod = drive_readings(rpsup.mechanism, rpsup.layout.rod);
   add_reading(channels, "crank_torque_n_m", "Driving torque of the crank", crank.force);
   add_extremes(channels, "crank_torque", "_n_m", crank.force, Load::kCrankTorque);
-  add_reading(channels, "rod_force_n", "Driving force of the telescoping rod", rod.force);
+  add_reading(channels, "rod_force_n", "Driving force of the sliding rod", rod.force);
   add_extremes(channels, "rod_force", "_n", rod.force, Load::kRodForce);
   add_motor_channels("crank", crank, Load::kCrankCurrent, channels);
   add_motor_channels("rod", rod, Load::kRodCurrent, channels);
@@ -250,7 +250,7 @@ std::span<const QuantityInfo> metric_table() {
        .help = "Largest magnitude of the crank's driving torque in the whole run"},
       {.key = "peak_crank_torque_time_s", .help = "Time of peak_crank_torque_n_m"},
       {.key = "peak_rod_force_n",
-       .help = "Largest magnitude of the telescoping rod's driving force in the whole run"},
+       .help = "Largest magnitude of the sliding rod's driving force in the whole run"},
       {.key = "peak_rod_force_time_s", .help = "Time of peak_rod_force_n"},
       {.key = "mean_crank_velocity_rad_s",
        .help = "Mean angular velocity of the crank in the steady window (t ≥ run_up_s); null unless an "
