@@ -44,7 +44,7 @@ if command -v podman >/dev/null && "${podman[@]}" load --quiet --input "$package
     "${podman[@]}" run --rm --network host "${limits[@]}" --entrypoint true "rpsup:$tag" >>load.log 2>&1; then
   trap leave_container EXIT
   # As README.md says it, in a network that needs no set-up of the machine's.
-  readme_block 'from the image' | sed -e 's/ -p [^ ]* / --network host /' -e "s# rpsup-\*-image.tar# $package#" -e "s/\$(openssl[^)]*)/$token/" >session.sh
+  readme_block 'from the image' | sed -e 's/ -p [^ ]* / --network host /' -e "s# build/package/rpsup-\*-image.tar# $package#" -e "s/\$(openssl[^)]*)/$token/" >session.sh
   grep -q -e '--network host' session.sh || fail "README.md publishes no port"
   podman() {
     local options=()

@@ -12,7 +12,7 @@ unpack_system "$(. /etc/os-release; echo "$VERSION_CODENAME")" "$system"
 inside() { chroot "$system" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C DEBIAN_FRONTEND=noninteractive http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" "$@"; }
 cp "$package" "$system/root/"
 # The command of README.md, by root, who answers no questions.
-readme_block 'from the Debian package' | sed 's/^sudo //' >"$system/root/session.sh"
+readme_block 'from the Debian package' | sed -e 's/^sudo //' -e 's# ./build/package/# ./#' >"$system/root/session.sh"
 echo 'APT::Get::Assume-Yes "true"; APT::Sandbox::User "root";' >"$system/etc/apt/apt.conf.d/test"
 (cd "$system" && find etc usr var -xdev \( -type f -o -type l \) | sort) >before
 inside apt-get --quiet=2 update >apt.log 2>&1

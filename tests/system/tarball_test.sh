@@ -70,7 +70,7 @@ for release in "$codename" trixie; do
   for program in $programs; do expect_equal "$("${inside[@]}" "/srv/somewhere else/$top/$program" --version)" "$("$(dirname "$rpsup")/$(basename "$program")" --version)" "version of $program"; done
   # The two commands of README.md, where the file is.
   cp "$package" "$release/srv/trial/"
-  readme_block 'from the tarball' >"$release/srv/trial/session.sh"
+  readme_block 'from the tarball' | sed 's# build/package/# #' >"$release/srv/trial/session.sh"
   "${inside[@]}" sh -euc 'cd /srv/trial; . ./session.sh' >log 2>&1 || { cat log; fail "the study cannot be computed in $release"; }
   expect_equal "$(wc -l <"$release/srv/trial/peaks.csv")" 41 "lines of the table"
   "${inside[@]}" "/srv/somewhere else/$top/bin/rpsup" sweep "/srv/somewhere else/$top/share/doc/rpsup/examples/paper.json" --db /srv/trial/study.db \
