@@ -17,6 +17,13 @@ namespace server::commands {
 
 namespace {
 
+/// "{json,csv,ndjson}", as the parser's help lists choices.
+std::string list_choices(DataShape shape) {
+  std::string text;
+  for (const std::string_view word : format_words(shape)) text.append(text.empty() ? "{" : ",").append(word);
+  return text + "}";
+}
+
 /// "json, csv or ndjson", each after the sign.
 std::string list_formats(DataShape shape, std::string_view sign) {
   const auto words = format_words(shape);
@@ -59,7 +66,7 @@ void add_format_option(CLI::App& command, std::string& format, DataShape shape) 
                   "Format of " + std::string(describe(shape)) + ": " + list_formats(shape, "") +
                       "; if left out, that of the file's suffix, else " +
                       std::string(info_of(default_format(shape)).word))
-      ->check(CLI::IsMember(words))
+      ->check(CLI::IsMember(words).description(list_choices(shape)))
       ->envname("RPSUP_FORMAT");
 }
 

@@ -17,7 +17,8 @@ struct OutputFile {
   std::string path;    ///< "-": standard output
 };
 
-/// Adds --format with all formats: the environment and the configuration file may give one to any command.
+/// Adds --format, whose help lists the formats of the shape. All formats pass: the environment and the
+/// configuration file may give one to any command.
 void add_format_option(CLI::App& command, std::string& format, DataShape shape);
 
 /// Format of an output: that of its suffix, else that of --format, else CSV, or HDF5 of trajectories.
