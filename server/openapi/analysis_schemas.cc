@@ -59,14 +59,14 @@ Json make_flexibility() {
       {"ratio_least", described(kNumberOrNull, "least flexible over largest rigid value")},
       {"ratio_largest", kNumberOrNull},
       {"verdict", {{"enum", {"helps", "harms", "either", "one_run_each", nullptr}}}},
-      {"along", or_null(kText)},
+      {"along", described(or_null(kText), "first number that the sweep varies beside the link")},
       {"reverses_from", described(kNumberOrNull,
-                                  "the last value of the parameter `along` at which the ratio was not 1 "
-                                  "within 0.1 %, if it was on the other side of 1 there")},
+                                  "last value of `along` before this one with the opposite verdict, all else "
+                                  "equal")},
       {"coupler_loss_j", described(kNumberOrNull,
-                                   "energy that the dampers of flexible jobs take, those of flexible links "
-                                   "and of joints")},
-      {"coupler_loss_part", described(kNumberOrNull, "its part of all losses")}};
+                                   "energy lost in the dampers of flexible links and joints, and in motors, "
+                                   "mean of the flexible jobs")},
+      {"coupler_loss_part", described(kNumberOrNull, "its fraction of all losses")}};
   for (const std::string coupler : {"rigid", "flexible"}) {
     properties[coupler + "_count"] = kCount;
     for (const char* const part : {"_mean", "_spread", "_min", "_max"})
