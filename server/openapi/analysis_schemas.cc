@@ -33,8 +33,8 @@ void add_saltelli_columns(Json& properties) {
   for (const char* const key :
        {"first_order", "first_order_low", "first_order_high", "total", "total_low", "total_high"}) {
     properties[key] = described(kNumberOrNull,
-                                "of a saltelli design: the part of the metric's variance that the parameter "
-                                "makes, alone and in total; low and high: 95 %");
+                                "of a saltelli design: Sobol index, the fraction of the metric's variance "
+                                "that the parameter makes, alone and in total; low and high: 95 %");
   }
 }
 
@@ -46,7 +46,7 @@ Json make_sensitivity() {
       {"blocks_missing", kCount},
       {"mean", kNumberOrNull},
       {"deviation", kNumberOrNull},
-      {"noise", described(kNumberOrNull, "the part of the variance that lies between replicates")}};
+      {"noise", described(kNumberOrNull, "fraction of the variance that lies between replicates")}};
   add_morris_columns(properties);
   add_saltelli_columns(properties);
   return rows_of(std::move(properties));
@@ -139,7 +139,8 @@ Json make_surrogate_surface() {
        {"cross_validation_error",
         described(kNumberOrNull,
                   "root mean square, each point predicted from all others; in the metric's unit")},
-       {"predicted_part", described(kNumberOrNull, "of the variance, the same way")},
+       {"predicted_part",
+        described(kNumberOrNull, "fraction of the variance that these predictions explain, Q^2")},
        {"x_values", list_of(kNumber)},
        {"y_values", list_of(kNumber)},
        {"values", or_null(list_of(list_of(kNumberOrNull)))},

@@ -42,8 +42,8 @@ Json make_objective() {
   return object_of(
       {{"metric", kText},
        {"goal", std::move(goal)},
-       {"quantile", make_quantile_of_jobs("part of a candidate's jobs that is at least as good as the value "
-                                          "that counts; 1, the worst value, if left out")}},
+       {"quantile", make_quantile_of_jobs("fraction of the candidate's jobs that must reach the value which "
+                                          "counts; 1, the default, counts the worst job")}},
       {"goal", "quantile"});
 }
 
@@ -52,8 +52,8 @@ Json make_bound() {
       {{"metric", kText},
        {"minimum", described(kNumber, "either minimum or maximum")},
        {"maximum", kNumber},
-       {"quantile", make_quantile_of_jobs("part of a candidate's jobs that must keep the bound; all if left "
-                                          "out")}},
+       {"quantile", make_quantile_of_jobs("fraction of the candidate's jobs that must keep the bound; all if "
+                                          "left out")}},
       {"minimum", "maximum", "quantile"});
 }
 

@@ -222,7 +222,8 @@ Json make_search_path() {
         {{"type", "number"},
          {"exclusiveMinimum", jobs::kToleranceRange.minimum},
          {"description",
-          "how exact the limit has to be, in the parameter's unit; a hundredth of the way if left out"}}},
+          "how exact the limit has to be, in the parameter's unit; if left out a hundredth of the way, with "
+          "the scale log the hundredth root of its ratio"}}},
        {"first", std::move(first)}},
       {"scale", "tolerance", "first"});
   path["description"] =
@@ -256,7 +257,7 @@ Json make_search_request() {
                    {"exclusiveMinimum", jobs::kQuantileRange.minimum},
                    {"maximum", jobs::kQuantileRange.maximum},
                    {"default", jobs::LimitRule{}.quantile},
-                   {"description", "the part of the replicates that must not be above the bound"}}},
+                   {"description", "smallest fraction of the replicates that must not be above the bound"}}},
                  {"sweep", all.at("sweep")},
                  {"replicates", all.at("replicates")},
                  {"priority", all.at("priority")},

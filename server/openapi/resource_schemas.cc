@@ -118,7 +118,8 @@ Json make_sweep(Detail detail) {
       {"ended_at", or_null(kTime)},
       {"axes", described(list_of(kText), "the parameters that differ from job to job")},
       {"study_id", described(or_null(ref("Id")),
-                             "study whose jobs these are: search, wear study, optimisation or fit; null: none")},
+                             "study whose jobs these are: search, wear study, optimisation or fit; null: "
+                             "none")},
       {"links", object_of({{"self", kText},
                            {"results", kText},
                            {"events", kText},
