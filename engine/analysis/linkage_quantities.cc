@@ -422,7 +422,9 @@ void LinkageQuantities::add_run_metrics() {
              [](const RunMetrics& metrics, const auto&) {
                return static_cast<double>(metrics.face_onsets());
              });
-  add_metric({.key = "friction_work_j", .help = "Energy lost to friction in the joints in the whole run"},
+  add_metric({.key = "friction_work_j",
+              .help = "Work done against the friction forces in the joints in the whole run, the energy of "
+                      "bent bristles included"},
              [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().friction_loss; });
   add_metric({.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.last_energy().impact_loss; });
@@ -434,8 +436,8 @@ void LinkageQuantities::add_run_metrics() {
               .help = "Largest |E − E(0) − work of the drives + losses| in the whole run"},
              [](const RunMetrics& metrics, const auto&) { return metrics.largest_imbalance(); });
   add_metric({.key = "energy_residual",
-              .help = "Ratio of energy_imbalance_j to the work turned over, or to the largest kinetic energy "
-                      "or change of potential energy if that is larger; null if nothing moves"},
+              .help = "energy_imbalance_j, divided by the largest of: work turned over in the whole run, "
+                      "kinetic energy, change of potential energy; null if nothing moves"},
              [](const RunMetrics& metrics, const auto&) { return metrics.calc_energy_residual(); });
   add_metric(
       {.key = "redundant_constraints",

@@ -205,8 +205,8 @@ void add_energy_channels(std::vector<Channel>& channels) {
               [](const Evaluation& at) { return at.energy.drive_work.sum(); });
   channels.push_back(
       {.info = {.key = "energy_residual",
-                .help = "(E − E(0) − work of the drives + losses) / work turned over in the whole run, or "
-                        "the largest kinetic energy or change of potential energy if that is larger"},
+                .help = "E − E(0) − work of the drives + losses, divided by the largest of: work turned over "
+                        "in the whole run, kinetic energy, change of potential energy"},
        .kind = Channel::Kind::kImbalance});
 }
 
@@ -274,7 +274,9 @@ std::span<const QuantityInfo> metric_table() {
       {.key = "peak_joint_reaction_n",
        .help = "Largest magnitude of the force between coupler and cross link in the whole run"},
       {.key = "peak_joint_reaction_time_s", .help = "Time of peak_joint_reaction_n"},
-      {.key = "friction_work_j", .help = "Energy lost to friction in the joint in the whole run"},
+      {.key = "friction_work_j",
+       .help = "Work done against the friction force in the joint in the whole run, the energy of bent "
+               "bristles included"},
       {.key = "impact_loss_j", .help = "Energy lost in the normal contact law in the whole run"},
       {.key = "structural_loss_j",
        .help = "Energy lost in the dampers of the flexible links and in motors in the whole run"},
@@ -282,8 +284,8 @@ std::span<const QuantityInfo> metric_table() {
        .help = "Time integral of normal contact force × sliding speed over the whole run; by Archard's law "
                "worn volume = wear coefficient × sliding work; null without clearance"},
       {.key = "energy_residual",
-       .help = "Largest |E − E(0) − work of the drives + losses| / work turned over in the whole run, or the "
-               "largest kinetic energy or change of potential energy if that is larger"},
+       .help = "Largest |E − E(0) − work of the drives + losses|, divided by the largest of: work turned "
+               "over in the whole run, kinetic energy, change of potential energy"},
       {.key = "steps", .help = "Number of accepted integration steps", .integer = true},
       {.key = "rhs_evaluations", .help = "Number of evaluations of the equations of motion", .integer = true},
   };
