@@ -52,7 +52,10 @@ Json make_metrics() {
 }
 
 Json make_error() {
-  return object_of({{"reason", described(kText, "non_finite, step_limit, time_limit, memory_limit, ...")},
+  return object_of({{"reason", described(kText,
+                                         "assembly, lock_up, singular, contact_range, non_finite, "
+                                         "step_underflow, step_limit, time_limit, memory_limit, internal, "
+                                         "task_failed or task_lost")},
                     {"detail", kText},
                     {"t_s", or_null(kNumber)}});
 }
