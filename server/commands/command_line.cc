@@ -173,8 +173,8 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
   CLI::Option* const sweep =
       command
           .add_option("--trajectories", options.sweep,
-                      "Sweep whose results and trajectories are written instead of a copy: .h5, .mat or .npz. "
-                      "The store must not be in use; with a running service, use rpsup trajectory")
+                      "Sweep whose results and trajectories are written instead of a copy: .h5, .mat or "
+                      ".npz. The store must not be in use; with a running service, use rpsup trajectory")
           ->type_name("SWEEP");
   command.add_option("--channels", options.channels, "Channels, separated by commas; all if left out")
       ->envname("RPSUP_CHANNELS");

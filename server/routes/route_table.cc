@@ -133,8 +133,8 @@ std::vector<Route> make_search_routes() {
   return make_study_routes<SearchRoutes>(
       {.path = "/v1/searches", .tag = "searches", .schema = "Search", .rows = "LimitRows", .noun = "Search",
        .nouns = "Searches", .rows_id = "getLimits",
-       .submit = "Search the limit of a parameter, the last value before a metric first exceeds its bound, for every "
-                 "combination of the axes",
+       .submit = "Search the limit of a parameter, the last value before a metric first exceeds its bound, "
+                 "for every combination of the axes",
        .list = "Searches, the newest first", .get = "State, progress, limits and evaluations of a search",
        .erase = "Delete a search that has ended, with the sweep of its evaluations",
        .table = "Table of limits: a row for each combination of the axes, with the limit and its band",
