@@ -87,7 +87,7 @@ Json make_paper() {
                                  "settings their median")},
        {"found_largest", described(kNumberOrNull, "the largest one")},
        {"settings", described(kCount, "of what else the sweep varies, those that have every peak")},
-       {"share", described(kNumberOrNull, "part of the settings in which the statement holds")},
+       {"share", described(kNumberOrNull, "fraction of the settings in which the statement holds")},
        {"holds", or_null({{"type", "boolean"}})}});
   row["additionalProperties"] = described(
       kNumberOrNull,
