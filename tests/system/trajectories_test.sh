@@ -51,6 +51,13 @@ assert file["results/peak_slider_acceleration_m_s2"].attrs["unit"].decode() == "
 assert file["trajectories/job_0002/pose_1_3_1_x_m"].attrs["unit"].decode() == "m"
 assert file["trajectories/job_0002/pose_1_3_1_x_m"].chunks is not None
 text = lambda value: value.decode() if isinstance(value, bytes) else value
+units = {}
+def note_unit(name, data):
+    if "unit" in data.attrs:
+        units[name.split("/")[-1]] = text(data.attrs["unit"])
+file.visititems(note_unit)
+assert units["clearance_mm"] == "mm" and units["crank_velocity_rad_s"] == "rad/s", units
+json.dump(units, open("units.json", "w"), ensure_ascii=False)
 check("h5", lambda key: [text(value) for value in file["results/" + key][()].tolist()],
       lambda job: {key: data[()] for key, data in file["trajectories/" + job].items()})
 PY
@@ -65,6 +72,13 @@ h5 = load('all.h5');
 assert(mat.sweep.name, 'Gelenk, größer');
 assert(mat.results.coupler{2}, 'flexible');
 assert(mat.units.pose_1_3_1_x_m, 'm');
+if exist('units.json', 'file')  % of the HDF5 file
+  units = jsondecode(fileread('units.json'));
+  assert(sort(fieldnames(units)), sort(fieldnames(mat.units)));
+  for key = fieldnames(units)'
+    assert(mat.units.(key{1}), units.(key{1}));
+  end
+end
 assert(mat.results.clearance_mm(:), h5.results.clearance_mm(:));
 assert(h5.results.state(1, :), 'succeeded');
 for k = 1:8
