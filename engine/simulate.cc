@@ -76,6 +76,16 @@ struct ChartedStart {
   }
 };
 
+/// @returns how the drives determine the motion. A run that is solved instant by instant keeps the given
+/// charts: from gimbal lock, which other charts do not have, the motion is integrated as if free.
+LoopClosure::Determinacy find_determinacy(LoopClosure& given, const Evaluation& assembled,
+                                          ChartedStart& charted) {
+  using Determinacy = LoopClosure::Determinacy;
+  const Determinacy found = given.find_determinacy(assembled);
+  if (found != Determinacy::kSingularStart) return found;
+  return charted.closure.find_determinacy(charted.at) == found ? found : Determinacy::kFree;
+}
+
 RunOutcome integrate(const Mechanism& mechanism, const RunOptions& options, Observer& observer,
                      const Evaluation& assembled, Eigen::Index redundant) {
   if (redundant == 0) return Integration(mechanism, options, observer).run(assembled);
@@ -92,10 +102,10 @@ RunOutcome simulate(const Mechanism& mechanism, const RunOptions& options, Obser
   Evaluation assembled = MotionSystem(mechanism).make_evaluation();
   if (!closure.assemble(0.0, assembled))
     return {.status = RunStatus::kAssembly, .detail = describe_assembly_fault(closure)};
-  const Determinacy determinacy = allows_kinematics(mechanism, options.integrator)
-                                      ? closure.find_determinacy(assembled)
-                                      : Determinacy::kFree;
   ChartedStart start(mechanism, assembled);
+  const Determinacy determinacy = allows_kinematics(mechanism, options.integrator)
+                                      ? find_determinacy(closure, assembled, start)
+                                      : Determinacy::kFree;
   if (const auto fault = find_start_fault(mechanism, start.closure, determinacy, start.at)) return *fault;
   const Eigen::Index redundant = start.closure.count_redundant(start.at);
   RunOutcome outcome = determinacy == Determinacy::kDetermined

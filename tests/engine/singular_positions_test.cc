@@ -349,6 +349,34 @@ TEST(GimbalLock, AtTheStartIsNoneOfTheLinkage) {
       }
 }
 
+/// A driven crank with an upright rod on a ball joint, whose other end a guide keeps above the crank's start.
+Linkage make_upright_rod(double start) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, 0.0, -9.81};
+  linkage.bodies = {make_body("crank", 0.5, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3}),
+                    make_body("rod", 0.5, {0.15, 0.0, 0.0}, {4e-4, 0.015, 0.015}),
+                    make_body("slider", 1.0, {0.0, 0.0, 0.0}, {1e-3, 1e-3, 1e-3})};
+  linkage.joints = {
+      {.name = "crank", .from = kGroundName, .to = "crank", .placement = {},
+       .freedoms = {{.name = "crank", .drive = Polynomial{{start, 0.0, 3.0}}}}},
+      {.name = "ball", .kind = JointKind::kSpherical, .from = "crank", .to = "rod", .placement = {.p = {0.1, 0.0, 0.0}},
+       .freedoms = {{.name = "psi"}, {.name = "theta", .guess = -0.5 * std::numbers::pi}, {.name = "phi"}}},
+      {.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "slider", .placement = {.p = {0.1, 0.0, 0.0}},
+       .freedoms = {{.name = "height", .guess = 0.3}}},
+      {.name = "yoke", .kind = JointKind::kUniversal, .from = "rod", .to = "slider", .placement = {.p = {0.3, 0.0, 0.0}},
+       .axes = {Axis::kY, Axis::kX}, .cut = true}};
+  return linkage;
+}
+
+// A quarter turn of the ball joint at the start is no change point of a linkage that its drive moves.
+TEST(GimbalLock, AtTheStartOfADrivenLinkageIsNoneOfIt) {
+  const LinkageRun run(make_upright_rod(0.0), accurate(1.0)), beside(make_upright_rod(1e-5), accurate(1.0));
+  for (const char* const shown : {"height_m", "height_m_s", "guide_reaction_n", "crank_drive_n_m"})
+    EXPECT_NEAR(run.last(shown), beside.last(shown), 1e-3) << shown;
+  const double across = 0.2 * std::sin(0.5 * 3.0);  // of the rod's ends
+  EXPECT_NEAR(run.last("height_m"), std::sqrt(0.09 - across * across), 1e-6);
+}
+
 std::string refusal(const Linkage& linkage) {
   try {
     check_linkage(linkage);
