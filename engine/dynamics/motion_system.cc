@@ -140,17 +140,17 @@ EvaluationStatus MotionSystem::solve(double t, const Eigen::VectorXd& y, Eigen::
 /// After an evaluation: repeats it until the friction that depends on reactions is that of its reactions.
 EvaluationStatus MotionSystem::solve_friction(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt) {
   constexpr int kMostPasses = 60;
+  EvaluationStatus status = EvaluationStatus::kOk;
   reaction_friction_.start();
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMostPasses && status == EvaluationStatus::kOk; ++pass) {
     friction_at_.t = piece_.clamp(t);
     kernel_->read_out(friction_at_);
     if (reaction_friction_.improve(friction_at_)) return EvaluationStatus::kOk;
     calc_applied_forces(t, y);
-    const EvaluationStatus status =
-        kernel_->evaluate_and_keep(y.data(), drives().motion.data(), false, dydt.data());
-    if (status != EvaluationStatus::kOk) return status;
+    status = kernel_->evaluate_and_keep(y.data(), drives().motion.data(), false, dydt.data());
   }
-  return EvaluationStatus::kWedged;
+  reaction_friction_.give_up();
+  return status == EvaluationStatus::kOk ? EvaluationStatus::kWedged : status;
 }
 
 EvaluationStatus MotionSystem::calc_derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dydt,

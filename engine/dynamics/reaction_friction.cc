@@ -62,6 +62,7 @@ ReactionFriction::ReactionFriction(const Mechanism& mechanism) : reactions_(mech
   }
   const auto n = static_cast<Eigen::Index>(joints_.size());
   normal_forces_.setZero(static_cast<Eigen::Index>(mechanism.actuations.size()));
+  last_solution_ = normal_forces_;
   inverse_.setIdentity(n, n);
   for (Eigen::VectorXd* vector : {&residual_, &last_residual_, &step_, &image_, &row_}) vector->setZero(n);
 }
@@ -91,7 +92,10 @@ bool ReactionFriction::improve(const Evaluation& at) {
     residual_[static_cast<Eigen::Index>(i)] = calc_normal_force(joints_[i], at) - assumed;
     largest = std::max(largest, std::abs(assumed));
   }
-  if (residual_.cwiseAbs().maxCoeff() <= kSolved * largest) return true;
+  if (residual_.cwiseAbs().maxCoeff() <= kSolved * largest) {
+    last_solution_ = normal_forces_;
+    return true;
+  }
   if (has_last_) update_inverse();
   step_.noalias() = inverse_ * residual_;
   for (std::size_t i = 0; i < joints_.size(); ++i)
@@ -99,6 +103,11 @@ bool ReactionFriction::improve(const Evaluation& at) {
   last_residual_ = residual_;
   has_last_ = true;
   return false;
+}
+
+void ReactionFriction::give_up() {
+  normal_forces_ = last_solution_;
+  inverse_.setIdentity();
 }
 
 /// inverse += (step - inverse y) (step^T inverse) / (step^T inverse y),  y = last residual - residual

@@ -41,6 +41,8 @@ class ReactionFriction {
   /// @param at  accelerations and loads that came of normal_forces()
   /// @returns whether these are the solution; otherwise they are new ones to try
   [[nodiscard]] bool improve(const Evaluation& at);
+  /// Takes up the last solution again: forces that were tried in vain are none of the next state.
+  void give_up();
 
  private:
   struct Joint {
@@ -55,7 +57,7 @@ class ReactionFriction {
 
   std::vector<Joint> joints_;
   JointReactions reactions_;
-  Eigen::VectorXd normal_forces_;
+  Eigen::VectorXd normal_forces_, last_solution_;
   Eigen::MatrixXd inverse_;  ///< of 1 - dg/dN, kept from state to state
   Eigen::VectorXd residual_, last_residual_, step_, image_, row_;
   bool has_last_ = false;

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/dynamics/motion_system.h"
 #include "tests/engine/linkage_cases.h"
 #include "tests/engine/linkage_run.h"
 
@@ -159,7 +160,7 @@ TEST(JointFriction, OfStiffBristlesIsRightBetweenSteps) {
 }
 
 /// A drawer of 2 kg in a guide of 0.2 m, its centre of mass 0.3 m beside it, pushed by 10 N.
-RunResult push_drawer(double velocity) {
+Linkage make_drawer(double velocity) {
   Linkage linkage;
   linkage.bodies = {make_body("drawer", 2.0, {0.0, 0.3, 0.0}, {1e-2, 1e-2, 1e-2})};
   linkage.joints = {{.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "drawer", .placement = {}, .axes = {Axis::kX, Axis::kY},
@@ -167,7 +168,11 @@ RunResult push_drawer(double velocity) {
                                    .load = ForceLaw{.law = Constant{10.0}},
                                    .friction = JointFriction{.law = {.mu_k = 0.5, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6},
                                                              .by_reaction = true, .length = 0.2}}}}};
-  return simulate_linkage(linkage, accurate(0.1), 0.0, {});
+  return linkage;
+}
+
+RunResult push_drawer(double velocity) {
+  return simulate_linkage(make_drawer(velocity), accurate(0.1), 0.0, {});
 }
 
 // N = 2 h / L |F - mu N sign(v)|: with mu h / L = 0.75 the drawer moves on under 12 N, and against the push nothing fits.
@@ -176,6 +181,25 @@ TEST(ReactionFriction, EndsTheRunOfADrawerThatWedges) {
   const RunResult wedged = push_drawer(-1.0);
   EXPECT_EQ(wedged.status, RunStatus::kLockUp);
   EXPECT_NE(wedged.detail.find("wedges"), std::string::npos);
+}
+
+// A step that is tried and rejected may end where the drawer wedges.
+TEST(ReactionFriction, IsNotThatOfAStateThatWedges) {
+  const BuiltLinkage built = build_linkage(make_drawer(1.0));
+  MotionSystem system(built.mechanism);
+  Evaluation at = system.make_evaluation();
+  const auto evaluate = [&](double velocity) {
+    const Eigen::VectorXd y = system.make_state(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, velocity));
+    Eigen::VectorXd dydt = Eigen::VectorXd::Zero(y.size());
+    return system.calc_derivative(0.0, y, dydt, at);
+  };
+  for (const double velocity : {-1.0, -1e-2, -3e-6}) {
+    ASSERT_EQ(evaluate(1.0), EvaluationStatus::kOk);
+    EXPECT_NEAR(at.friction_reaction.maxCoeff(), 12.0, 1e-8);
+    EXPECT_EQ(evaluate(velocity), EvaluationStatus::kWedged);
+    ASSERT_EQ(evaluate(1.0), EvaluationStatus::kOk);
+    EXPECT_NEAR(at.friction_reaction.maxCoeff(), 12.0, 1e-8) << "after " << velocity << " m/s";
+  }
 }
 
 }  // namespace
