@@ -2,7 +2,7 @@
 # For script/bench and the parts of it. Sourced; expects $root.
 source "$root/script/common.sh"
 
-# Packages that the benchmarks need beside those of script/setup.
+# Packages that the benchmarks need beside those of script/setup build.
 bench_packages=(libbenchmark-dev libsimbody-dev libmujoco-dev)
 
 # build_benches TREE TARGET...: in TREE/build/bench, with the flags of the release preset
@@ -15,8 +15,11 @@ build_benches() {
     { tail -n 40 "$tree/build/bench/build.log" >&2; echo "script/bench: the build failed" >&2; exit 1; }
 }
 
+# The page of results, which a record before this one may have changed, is no part of what is measured.
 describe_commit() {
-  git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown
+  local dirty=
+  git diff --quiet HEAD -- . ':!tests/bench/README.md' 2>/dev/null || dirty=-dirty
+  echo "$(git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)$dirty"
 }
 
 describe_machine() {
