@@ -7,5 +7,5 @@ trap 'rm -f "$measured"' EXIT
 echo
 echo "| part | CPU |"
 echo "|---|---:|"
-jq -r '[.benchmarks[] | select(.run_type == "iteration")] | group_by(.family_index)[] | min_by(.cpu_time) | [.run_name, .cpu_time, .time_unit] | @tsv' \
+jq -r '[.benchmarks[] | select(.run_type == "iteration" and (.error_occurred | not))] | group_by(.family_index)[] | min_by(.cpu_time) | [.run_name, .cpu_time, .time_unit] | @tsv' \
   "$measured" | awk -F '\t' '{printf "| %s | %.3g %s |\n", $1, $2, $3}'

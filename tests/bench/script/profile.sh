@@ -38,9 +38,11 @@ for each in "${cases[@]}"; do
     # are solved, not integrated, evaluate constraints and inverse dynamics.
     /UnstableMode|Eigen::.*(Schur|Hessenberg|EigenSolver|ouseholder)/ {sums["stability checks"] += $1; next}
     /::factor/ {sums["factorisation"] += $1; next}
-    /::solve|NewtonMatrix|RecursiveNewton|TreeRecursion|ContactUpdate/ && !/MotionSystem|ConstraintSolver|LoopClosure/ {sums["solutions"] += $1; next}
-    /[lL]inearis|OperatingPoint|Jacobian|SeedSchedule|solve_pack|DualOf|Tangent/ {sums["Jacobian"] += $1; next}
-    /CompiledKernel|add_elements|ForwardDynamics|Constraint|InverseDynamics|calc_frame|solve_bodies|acos|atan2/ {sums["evaluation"] += $1; next}
+    /solve_pack/ {sums["Jacobian"] += $1; next}
+    /solve_bodies/ {sums["evaluation"] += $1; next}
+    /::solve|NewtonMatrix|RecursiveNewton|TreeRecursion|ContactUpdate/ && !/MotionSystem|ConstraintSolver|LoopClosure|KinematicRun/ {sums["solutions"] += $1; next}
+    /[lL]inearis|OperatingPoint|Jacobian|SeedSchedule|DualOf|Tangent/ {sums["Jacobian"] += $1; next}
+    /CompiledKernel|add_elements|ForwardDynamics|Constraint|InverseDynamics|calc_frame|acos|atan2/ {sums["evaluation"] += $1; next}
     /calc_driven_motion|sincos|move_drives/ {sums["drives"] += $1; next}
     /RunMetrics|RunChannels|RunObserver|RpsupObserver|SlidingWork|calc_ring_contact|std::_Function_handler|energy|potential|kinetic|interpolate/ {sums["observers, samples"] += $1; next}
     /Radau5|Rodas5|Dopri5|Integration|Tolerance|combine_stages|StepControl|pow_fma|MotionSystem|StepPoint|KinematicRun|LoopClosure/ {sums["integrator"] += $1; next}
