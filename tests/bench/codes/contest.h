@@ -17,7 +17,7 @@ struct Competitor {
   std::string name;
   double accuracy;        ///< how far its peak may be off: beyond, it computes another physics; relative
   std::optional<double> wanted_ratio;  ///< its time over ours that is asked for
-  std::function<CodeRun()> run;
+  std::function<std::function<CodeRun()>()> prepare;  ///< makes the model, and then a run of it
   Samples seconds{};
   CodeRun last{};
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "engine/simulate_linkage.h"
 #include "engine/simulate_rpsup.h"
@@ -17,9 +18,11 @@ namespace bench {
 [[nodiscard]] CodeRun run_linkage(const engine::Linkage& linkage, const std::string& measured,
                                   const engine::RunOptions& options);
 
-/// Processor time of one right-hand side of ours with every ring in contact, [s].
-[[nodiscard]] double time_rpsup_evaluation(const engine::RpsupParameters& parameters);
+/// Processor time of one right-hand side of ours with every ring in contact, the drives' laws included, [s].
+/// @param instruction_set  one of engine::instruction_sets(); empty: the best one
+[[nodiscard]] double time_rpsup_evaluation(const engine::RpsupParameters& parameters,
+                                           std::string_view instruction_set);
 /// The same of a mechanism as it starts.
-[[nodiscard]] double time_evaluation(const engine::Mechanism& mechanism);
+[[nodiscard]] double time_evaluation(const engine::Mechanism& mechanism, std::string_view instruction_set);
 
 }  // namespace bench

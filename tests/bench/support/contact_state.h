@@ -26,7 +26,8 @@ class ContactState {
   ContactState(const ContactState&) = delete;  // the system refers to the mechanism
   ContactState& operator=(const ContactState&) = delete;
 
-  void evaluate() { (void)system_.calc_derivative(0.0, y_, dydt_); }
+  /// @param t  an instant whose drives are near those at 0, [s]: the motion of the last ones is kept
+  void evaluate(double t = 0.0) { (void)system_.calc_derivative(t, y_, dydt_); }
 
   [[nodiscard]] double penetration() const { return at_.joints[0].load.max_penetration; }
 
