@@ -65,7 +65,7 @@ class FullRankDelassus {
 /// the rows of a joint's force, and one for those of its moment. With S = w A w, it is found by iterated
 /// Tikhonov regularisation, Eq. (K13):
 ///
-///     x <- x + (S + e 1)^-1 (w b - S x),   lambda = w x
+///     nu <- nu + (S + e 1)^-1 (w b - S nu),   lambda = w nu
 ///     w_r = 1 / sqrt(largest A_ss of the rows s of the same joint and kind)
 ///
 /// which is the proximal point iteration (J. Carpentier, R. Budhiraja, N. Mansard, 2021). Its first step

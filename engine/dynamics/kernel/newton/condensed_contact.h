@@ -17,9 +17,9 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// complement of 2 x 2 blocks): Eq. (K32). From the derivatives by the journal's tangent xi and by z, of
 /// which each pair depends on itself alone,
 ///
-///     load = L xi + B z,   sigma z - b_z = D xi + E z
-///     =>   z = (sigma 1 - E)^-1 (b_z + D xi),
-///          load = (L + B (sigma 1 - E)^-1 D) xi + B (sigma 1 - E)^-1 b_z
+///     load = load_xi xi + load_z z,   sigma z - b_z = zd_xi xi + E z
+///     =>   z = (sigma 1 - E)^-1 (b_z + zd_xi xi),
+///          load = (load_xi + load_z (sigma 1 - E)^-1 zd_xi) xi + load_z (sigma 1 - E)^-1 b_z
 ///
 /// @tparam Scalar  double or Complex<double>
 template <typename Scalar>

@@ -72,7 +72,7 @@ bool ContactUpdate<Scalar>::factor(const Tree& tree, const Scalar& shift) {
   return capacitance_matrix_.factor() && regular;
 }
 
-/// Computes columns of T_0^-1 F and of 1 - G T_0^-1 F, for a pack of unit numbers of xi.
+/// Computes columns of T_0^-1 Gamma and of 1 - G T_0^-1 Gamma, for a pack of unit numbers of xi.
 template <typename Scalar>
 void ContactUpdate<Scalar>::assemble_capacitance(const Tree& tree, std::size_t pack) {
   const std::size_t first = pack * kLanes;

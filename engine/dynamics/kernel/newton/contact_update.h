@@ -28,10 +28,11 @@ inline namespace RPSUP_INSTRUCTION_SET {
 /// With xi the tangents of the journals' motions in joints in contact, twelve numbers each, and T_0 the
 /// Newton matrix of the open chains,
 ///
-///     T_0 x = b + F xi,   xi = G x   =>   (1 - G T_0^-1 F) xi = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 F xi
+///     T_0 x = b + Gamma xi,   xi = G x
+///     =>   (1 - G T_0^-1 Gamma) xi = G T_0^-1 b,   x = T_0^-1 b + T_0^-1 Gamma xi
 ///
-/// where F xi is the right-hand side by the loads (K20) on the bodies with the condensed contact (K32), G is
-/// (K19), and 1 - G T_0^-1 F is the capacitance matrix of Woodbury's identity. It loses digits where a
+/// where Gamma xi is the right-hand side by the loads (K20) on the bodies with the condensed contact (K32), G
+/// is (K19), and 1 - G T_0^-1 Gamma is the capacitance matrix of Woodbury's identity. It loses digits where a
 /// contact is stiffer than all that moves without it. Source: G. H. Golub, C. F. Van Loan, Matrix
 /// Computations, section 2.1 (Sherman-Morrison-Woodbury formula).
 /// @tparam Scalar  double or Complex<double>

@@ -66,7 +66,7 @@ template <typename Scalar, typename T>
   return sum;
 }
 
-/// force += P x. @param P  Body::articulated_tangent
+/// force += P chi. @param P  Body::articulated_tangent
 template <typename Scalar, typename T>
 RPSUP_INLINE void add_articulated_force(const Row9<Scalar> (&P)[6], const FrameTangent<T>& f,
                                         SpatialForce<T>& force) {

@@ -80,7 +80,7 @@ bool TreeRecursion<Scalar>::eliminate_joint(std::size_t i) {
 
 /// The gain, Eq. (K30), and P_parent += P' + U gain, Eq. (K31).
 /// @param count  of dqd
-/// @param tail   the joint's force by the ninth number of x_parent, and by dqd
+/// @param tail   the joint's force by the ninth number of chi_parent, and by dqd
 template <typename Scalar>
 void TreeRecursion<Scalar>::add_to_parent(std::size_t i, int count, JointForce<TailPack> tail) {
   const TreeJoint& joint = model_.joints[i];
@@ -208,7 +208,7 @@ void TreeRecursion<Scalar>::tip_to_base(const NumbersAt<Scalar>* rhs, Workspace<
   }
 }
 
-/// dqd = local_qd + gain x_parent, Eq. (K30), and the tangent of each frame.
+/// dqd = local_qd + gain chi_parent, Eq. (K30), and the tangent of each frame.
 template <typename Scalar>
 template <typename T>
 void TreeRecursion<Scalar>::base_to_tip(const NumbersAt<Scalar>* rhs, Workspace<T>& work) const {
@@ -221,8 +221,8 @@ void TreeRecursion<Scalar>::base_to_tip(const NumbersAt<Scalar>* rhs, Workspace<
     FrameTangent<T> f;
     if (joint.parent_moves) {
       f = work.frames[joint.parent];
-      const FrameNumbers<T> x_parent(f);
-      for (int k = 0; k < joint.count(); ++k) qd[k] += apply_row(body.gain[k], x_parent);
+      const FrameNumbers<T> chi_parent(f);
+      for (int k = 0; k < joint.count(); ++k) qd[k] += apply_row(body.gain[k], chi_parent);
     }
     if (joint.driven) work.drive_force[joint.drive] = qd[0];
     if (!joint.moves) continue;

@@ -28,13 +28,13 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///
 ///     dq = (dqd + b_q) / sigma,   dqdd = sigma dqd - b_v
 ///
-/// so that the tangent x = (w, wd, vd) of a frame is linear in that of its parent's frame and in the joint's
-/// dqd. The steps are those of ArticulatedBodies, with x instead of the acceleration:
+/// so that the tangent chi = (w, wd, vd) of a frame is linear in that of its parent's frame and in the joint's
+/// dqd. The steps are those of ArticulatedBodies, with chi instead of the acceleration:
 ///
-///     (K29)  articulated tangent  p = P x + p_0: the force that the children pass to a body, by the
+///     (K29)  articulated tangent  p = P chi + p_0: the force that the children pass to a body, by the
 ///            tangent of its frame (6 x 9); the body's own force (K18) is added
-///     (K30)  joint residual       r = Q x_parent + D dqd + r_0 = 0: balance along the joint's axes
-///            gain                 dqd = local_qd + gain x_parent,  local_qd = -D^-1 r_0,  gain = -D^-1 Q
+///     (K30)  joint residual       r = Q chi_parent + D dqd + r_0 = 0: balance along the joint's axes
+///            gain                 dqd = local_qd + gain chi_parent,  local_qd = -D^-1 r_0,  gain = -D^-1 Q
 ///     (K31)  to the parent        P_parent += P' + U gain,  p_0,parent += p_0' + U local_qd
 ///
 /// with U the force on the parent by dqd, and P', p_0' that with dqd = 0. Equation numbers are those of
@@ -56,9 +56,9 @@ class TreeRecursion {
           qd(model.free.size()),
           drive_force(model.drives.size()) {}
     /// one a joint; in: tangent of the load on the body, negative; out: force on the joint's subtree with
-    /// x_parent = 0 and the joint's dqd = 0; local_qd of the joints in the subtree is in it
+    /// chi_parent = 0 and the joint's dqd = 0; local_qd of the joints in the subtree is in it
     Buffer<SpatialForce<T>> bias_force;
-    Buffer<T> local_qd;  ///< dqd with x_parent = 0, of a driven joint its force; one a coordinate
+    Buffer<T> local_qd;  ///< dqd with chi_parent = 0, of a driven joint its force; one a coordinate
     Buffer<FrameTangent<T>> frames;      ///< out, one a joint
     Buffer<T> qd;                        ///< out, dqd: one a free coordinate
     Buffer<T> drive_force;               ///< out, one a drive
@@ -114,7 +114,7 @@ class TreeRecursion {
     Row9<Scalar> articulated_tangent[kForces];  ///< P of the children's subtrees, about the body's origin
     Scalar U[kForces][3];                       ///< force on the parent by dqd
     Scalar D_inverse[3][3];                     ///< of the joint residual by dqd
-    Row9<Scalar> gain[3];                       ///< dqd, or of a driven joint its force, by x_parent
+    Row9<Scalar> gain[3];                       ///< dqd, or of a driven joint its force, by chi_parent
   };
   /// The force that a joint passes to its parent, and the residual of its balance.
   template <typename T>
