@@ -26,7 +26,8 @@ enum class EvaluationStatus {
 };
 
 /// Solver of the Newton systems of an implicit step: a dense matrix, O(n^3) for n free coordinates, or a
-/// recursion over the bodies, O(n), for mechanisms without constraints and without springs between points.
+/// recursion over the bodies, O(n), for mechanisms without constraints, springs between points, applied
+/// forces, loads on bodies and armatures.
 enum class NewtonSolver { kDense, kRecursive };
 
 /// The equations of motion, their linearisation and their Newton systems, compiled for one instruction set:
