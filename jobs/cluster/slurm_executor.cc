@@ -89,6 +89,8 @@ nlohmann::json SlurmExecutor::status() const {
 void SlurmExecutor::work() {
   milliseconds pause = site_.folder_poll;
   while (!stop_.stop_requested()) {
+    // Before the round, which may fail before refresh_wanted()
+    const std::uint64_t seen = count_wakes();
     try {
       do_round(Clock::now());
       pause = site_.folder_poll;
@@ -98,8 +100,13 @@ void SlurmExecutor::work() {
       pause = std::clamp(2 * pause, kFirstPause, kLongestPause);
     }
     std::unique_lock lock(mutex_);
-    woken_.wait_for(lock, stop_.get_token(), pause, [&] { return wakes_ != seen_wakes_; });
+    woken_.wait_for(lock, stop_.get_token(), pause, [&] { return wakes_ != seen; });
   }
+}
+
+std::uint64_t SlurmExecutor::count_wakes() {
+  const std::lock_guard lock(mutex_);
+  return wakes_;
 }
 
 void SlurmExecutor::do_round(Clock::time_point now) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -49,6 +50,7 @@ class SlurmExecutor : public Executor {
   };
 
   void work();
+  [[nodiscard]] std::uint64_t count_wakes();
   void do_round(Clock::time_point now);
   void begin();
   void take_over_batches();
@@ -101,7 +103,7 @@ class SlurmExecutor : public Executor {
   std::mutex mutex_;  // guards wakes_
   std::condition_variable_any woken_;
   std::uint64_t wakes_ = 1;
-  std::uint64_t seen_wakes_ = 0;         ///< of the thread alone
+  std::uint64_t seen_wakes_ = 0;         ///< by refresh_wanted(), of the thread alone
 
   std::mutex stop_mutex_;  // guards thread_, which stop() may join but once
   std::jthread thread_;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/cluster/run_task.h"
+#include "jobs/store/store_lock.h"
 #include "tests/jobs/cluster/fake_slurm.h"
 #include "tests/jobs/service_support.h"
 
@@ -320,6 +321,24 @@ TEST(Executors, AreRefusedWhereTheyAreNotThere) {
        {R"({})", R"([])", R"({"executor": "slurm"})", R"({"executor": "local", "when": 1})"}) {
     EXPECT_THROW(service.move_sweep(id, nlohmann::json::parse(text)), jobs::InvalidRequest) << text;
   }
+}
+
+TEST_F(ClusterTest, PausesAfterARoundThatFails) {
+  { const jobs::Service first(options_of(store_, engine_, 1)); }  // makes the store
+  const auto folder = fake_.site().folder / query_sql(store_.file(), "SELECT id FROM identity");
+  std::filesystem::create_directories(folder);
+  const jobs::StoreLock held(folder);  // as by another service
+  start();
+  wait_until([&] { return !status().at("problems").empty(); }, "the problem is shown");
+  int rounds = 0;  // each gives the folder to its owner alone
+  for (int look = 0; look < 300; ++look) {
+    if (std::filesystem::status(folder).permissions() == std::filesystem::perms(0700)) {
+      ++rounds;
+      std::filesystem::permissions(folder, std::filesystem::perms(0755));
+    }
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_LT(rounds, 20);  // pauses grow from 1 s on
 }
 
 TEST_F(ClusterTest, LeavesBatchesOfAnotherEngineToNobody) {
