@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Studies of the service, and the thread that lets them go on.
 
+#include <exception>
 #include <memory>
 #include <span>
 
@@ -16,11 +17,7 @@ using nlohmann::json;
 
 StudyChanges advance_all(std::span<const std::unique_ptr<StudyRunner>> runners) {
   StudyChanges changes;
-  for (const auto& runner : runners) {
-    const StudyChanges one = runner->advance();
-    changes.any |= one.any;
-    changes.added |= one.added;
-  }
+  for (const auto& runner : runners) changes.add(runner->advance());
   return changes;
 }
 
@@ -116,6 +113,7 @@ void Service::run_studies() {
       const StudyChanges changes = advance_all(runners_);
       if (changes.added) wake();
       if (changes.any) tell_change();
+      if (changes.failure) std::rethrow_exception(changes.failure);
       changes_.wait(seen);
     } catch (const std::exception& error) {  // the store's errors, or no memory
       options_.log(std::string("the studies could not go on yet: ") + error.what());

@@ -2,6 +2,7 @@
 #include "jobs/studies/study_runner.h"
 
 #include <algorithm>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -115,13 +116,20 @@ StudyChanges StudyRunner::advance() {
   forget_ended(running);
   if (running.empty()) idle_wakeups_ = wakeups;
   StudyChanges changes;
-  for (const StudyRow& study : running) {
+  for (const StudyRow& study : running) changes.add(advance_fully(study));
+  return changes;
+}
+
+StudyChanges StudyRunner::advance_fully(const StudyRow& study) {
+  StudyChanges changes;
+  try {
     for (bool goes_on = true; goes_on;) {  // the results of added jobs may be known already
       const StudyChanges one = advance(study);
-      changes.any |= one.any;
-      changes.added |= one.added;
+      changes.add(one);
       goes_on = one.added;
     }
+  } catch (const std::exception&) {  // the store's errors, or no memory
+    changes.failure = std::current_exception();
   }
   return changes;
 }

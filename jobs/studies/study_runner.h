@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -52,6 +53,13 @@ class StudySampler {
 struct StudyChanges {
   bool any = false;    ///< a study has a new result or a new state
   bool added = false;  ///< jobs were added
+  std::exception_ptr failure{};  ///< of the first study that could not go on yet; it is asked again
+
+  void add(const StudyChanges& more) {
+    any |= more.any;
+    added |= more.added;
+    if (!failure) failure = more.failure;
+  }
 };
 
 /// Sweep with which a study begins.
@@ -124,7 +132,8 @@ class StudyRunner {
   /// reads all its jobs again.
   void change_sweep(const std::string& sweep_id, const std::function<void()>& change);
 
-  /// Tells all running studies their new results, and adds the jobs that they ask for.
+  /// Tells all running studies their new results, and adds the jobs that they ask for. A study that fails
+  /// keeps no other one.
   StudyChanges advance();
   /// Progress of a running study at the last advance(), 0 .. 1.
   [[nodiscard]] double find_progress(const std::string& id) const;
@@ -139,6 +148,8 @@ class StudyRunner {
   };
 
   void forget_ended(const std::vector<StudyRow>& running);
+  /// Lets one study go on as far as it can.
+  StudyChanges advance_fully(const StudyRow& study);
   StudyChanges advance(const StudyRow& study);
   /// Makes the sampler of a study from its sweep. False if the sweep has been deleted.
   bool activate(const StudyRow& study);
