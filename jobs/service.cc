@@ -94,14 +94,21 @@ void Service::start() {
   JobSource source{.claim = [this](const OnClaim& on_claim) { claim(on_claim); },
                    .record = [this](const ClaimedJob& job, const RunRecord& run,
                                     const OnClaim& next) { record(job, run, next); },
-                   .requeue = [this](const ClaimedJob& job) { store_->queue.requeue(job); },
+                   .requeue = [this](const ClaimedJob& job) { requeue(job); },
                    .ran = options_.ran};
-  executors_.push_back(std::make_unique<LocalPool>(std::move(source), options_.runner, options_.threads,
-                                                   options_.log, options_.job_limits));
+  const auto pool = std::make_shared<LocalPool>(std::move(source), options_.runner, options_.threads,
+                                                options_.log, options_.job_limits);
+  executors_.push_back(pool);
   if (has_cluster()) {
-    executors_.push_back(std::make_unique<cluster::SlurmExecutor>(
-        options_.site, store_->batches, filter_of(kSlurmExecutor), options_.job_limits,
-        [this] { tell_change(); }, options_.log));
+    // Jobs may have waited here for the same content there. The cluster's thread runs before the list of
+    // executors has it, so it must not look into that.
+    const auto tell_pool = [this, pool] {
+      pool->wake();
+      tell_change();
+    };
+    executors_.push_back(std::make_shared<cluster::SlurmExecutor>(
+        options_.site, store_->batches, filter_of(kSlurmExecutor), options_.job_limits, tell_pool,
+        options_.log));
   }
   study_thread_ = std::jthread([this] { run_studies(); });
 }
@@ -370,6 +377,11 @@ bool Service::wait_for_job(const std::string& id, std::chrono::milliseconds at_m
 
 void Service::claim(const OnClaim& on_claim) {
   if (store_->queue.claim(filter_of(kLocalExecutor), on_claim)) ++activity_;
+}
+
+void Service::requeue(const ClaimedJob& job) {
+  store_->queue.requeue(job);
+  tell_change();
 }
 
 void Service::record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next) {

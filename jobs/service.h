@@ -246,6 +246,7 @@ class Service {
   [[nodiscard]] nlohmann::json sweep_resource(const SweepRow& row, Detail detail) const;
 
   void claim(const OnClaim& on_claim);
+  void requeue(const ClaimedJob& job);
   /// @param next  takes the next job; empty: nobody does
   void record(const ClaimedJob& job, const RunRecord& run, const OnClaim& next);
   /// @param study  study that the sweep belongs to; empty: none
@@ -271,7 +272,7 @@ class Service {
   std::unique_ptr<Store> store_;
   std::array<std::unique_ptr<StudyRunner>, kStudyKinds.size()> runners_;  ///< by StudyKind
   /// End before the store they work for; none before start()
-  std::vector<std::unique_ptr<Executor>> executors_;
+  std::vector<std::shared_ptr<Executor>> executors_;
   std::mutex stop_mutex_;      ///< guards the joining of study_thread_
   std::jthread study_thread_;  ///< of run_studies()
 };

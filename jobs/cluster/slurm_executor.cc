@@ -170,19 +170,16 @@ void SlurmExecutor::prepare(const Live& live) const {
 }
 
 void SlurmExecutor::take_results() {
-  bool any = false;
-  for (const auto& live : live_) any = take_results_of(*live) || any;
-  if (any) changed_();
+  for (const auto& live : live_) take_results_of(*live);
 }
 
-bool SlurmExecutor::take_results_of(Live& live) {
+void SlurmExecutor::take_results_of(Live& live) {
   bool any = false;
   for (const auto& file : live.batch.find_new_results()) {
     any = take_file(live, file) || any;
     live.batch.set_seen(file);
   }
   if (any) live.batch.set_wanted(batches_.find_open_indices(live.batch.row().seq));
-  return any;
 }
 
 bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
@@ -195,7 +192,9 @@ bool SlurmExecutor::take_file(Live& live, const std::filesystem::path& file) {
       records.push_back({.batch_index = result.batch_index, .record = &result.record,
                          .packed_trajectory = &result.packed_trajectory});
     }
-    return batches_.record(live.batch.row().seq, results.provenance, records) > 0;
+    if (batches_.record(live.batch.row().seq, results.provenance, records) == 0) return false;
+    changed_();  // now: what follows may fail
+    return true;
   } catch (const FileError& error) {
     log_("results are left out, and are computed again: " + file.string() + ": " + error.what());
     return false;
@@ -237,7 +236,10 @@ void SlurmExecutor::act(Live& live, const Decision& decision, const std::map<Tas
                         Clock::time_point now) {
   std::vector<BatchIndex> begun, waiting;
   live.batch.take_running(decision.running, begun, waiting);
-  if (!begun.empty() || !waiting.empty()) batches_.set_running(live.batch.row().seq, begun, waiting);
+  if (!begun.empty() || !waiting.empty()) {
+    batches_.set_running(live.batch.row().seq, begun, waiting);
+    changed_();
+  }
   if (live.batch.wanted().empty()) std::ofstream(live.batch.folder().cancel()).flush();
   cancel(live, decision.cancel, reports);
   fail(live, decision.fail);
@@ -279,8 +281,8 @@ void SlurmExecutor::fail(Live& live, const std::vector<LostJob>& jobs) {
                       .packed_trajectory = &no_trajectory});
   }
   batches_.record(live.batch.row().seq, own_provenance(), placed);
-  live.batch.set_wanted(batches_.find_open_indices(live.batch.row().seq));
   changed_();
+  live.batch.set_wanted(batches_.find_open_indices(live.batch.row().seq));
 }
 
 void SlurmExecutor::submit(Live& live, std::vector<TaskPlan> tasks, Clock::time_point now) {

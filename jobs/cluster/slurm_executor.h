@@ -31,7 +31,8 @@ namespace jobs::cluster {
 /// Tasks go on when the service ends; the next one with the same store takes their results.
 class SlurmExecutor : public Executor {
  public:
-  /// @param changed  told when jobs have ended
+  /// @param changed  told when jobs have begun, ended or gone back to waiting; from the executor's thread,
+  ///     also before the constructor has returned
   /// @param log      told what needs a human's eye; both must not throw
   SlurmExecutor(Site site, ClusterBatches& batches, ExecutorFilter filter, const JobLimits& limits,
                 std::function<void()> changed, std::function<void(const std::string&)> log);
@@ -55,7 +56,8 @@ class SlurmExecutor : public Executor {
   void begin();
   void take_over_batches();
   void take_results();
-  bool take_results_of(Live& live);
+  void take_results_of(Live& live);
+  /// @returns whether jobs have ended
   bool take_file(Live& live, const std::filesystem::path& file);
   void refresh_wanted();
   void look(Clock::time_point now);

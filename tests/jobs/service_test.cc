@@ -211,7 +211,9 @@ TEST(Service, PutsRunningJobsBackWhenItStopsAndGoesOnWhenItStarts) {
     jobs::Service service(options_of(store, engine, 2));
     id = submitted(service, R"({"sweep": {"crank_velocity_rad_s": [1, 2, 3]}})");
     engine.await_running(2);
+    const std::uint64_t before = service.activity();
     service.stop();
+    EXPECT_GE(service.activity(), before + 3);  // of the stop, and of each job that is put back
     EXPECT_EQ(service.find_sweep(id).value().at("counts").at("queued"), 3);
     EXPECT_THROW((void)service.submit_sweep(request_of("{}")), jobs::Stopped);
     EXPECT_THROW((void)service.submit_job(json::object()), jobs::Stopped);

@@ -152,6 +152,36 @@ TEST_F(ClusterTest, ComputesASetOnceThatTwoSweepsHave) {
   EXPECT_EQ(fake_.count("sbatch"), 1);
 }
 
+TEST_F(ClusterTest, WakesTheLocalPoolForWhatHasWaitedForAJobThatFails) {
+  start();
+  const auto submit_failing = [&](const char* executor) -> std::string {
+    const ordered_json parameters{{"restitution", 0.5}, {"duration_s", 0.1}, {"run_up_s", 0.05}};
+    return service_->submit_sweep({{"parameters", parameters}, {"executor", executor}}).at("id");
+  };
+  const std::string there = submit_failing("slurm");
+  const auto batch = await_generation(0);
+  const std::string here = submit_failing("local");
+  const auto other = ordered_json::parse(
+      R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "executor": "local"})");
+  // The local pool has looked at the job that waits, and has left it.
+  ASSERT_TRUE(service_->wait_for_sweep(service_->submit_sweep(other).at("id"), 300s));
+  EXPECT_EQ(counts(here).at("queued"), 1);
+  compute(batch, 0);
+  ASSERT_TRUE(service_->wait_for_sweep(there, 300s));
+  EXPECT_TRUE(service_->wait_for_sweep(here, 20s));
+  EXPECT_EQ(counts(here).at("failed"), 1);
+}
+
+TEST_F(ClusterTest, TellsThatJobsBegin) {
+  start();
+  const std::string id = submit(2);
+  const auto batch = await_generation(0);
+  const std::uint64_t before = service_->activity();
+  report_all(batch, 1, "RUNNING");
+  wait_until([&] { return counts(id).at("running") == 2; }, "jobs run");
+  wait_until([&] { return service_->activity() > before; }, "it is told");
+}
+
 TEST_F(ClusterTest, NamesNodeAndNumericsInEachResult) {
   start();
   const std::string id = submit(1);
