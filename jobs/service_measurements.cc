@@ -6,7 +6,6 @@
 
 #include "jobs/base/content_id.h"
 #include "jobs/base/ids.h"
-#include "jobs/base/study_kind.h"
 #include "jobs/measurements/measurement_codec.h"
 #include "jobs/results/measurement_resource.h"
 #include "jobs/results/page.h"
@@ -77,8 +76,6 @@ std::optional<TrajectoryView> Service::find_measurement_data(
 }
 
 bool Service::delete_measurement(const std::string& id) {
-  if (const auto study = store_->measurements.find_use(id))
-    throw WrongState("the measurement is used by " + name_of_study(*study) + "; delete that first");
   if (!store_->measurements.erase(id)) return false;
   finish_deleting("measurement " + id);
   return true;

@@ -125,7 +125,10 @@ class FitStudy final : public StudyType {
     ordered_json sweep = observer->problem().common_sweep;
     sweep["cases"] = std::move(first.cases);
     SweepPlan plan = plan_sweep(sweep, max_jobs);
-    return {std::move(sweep), std::move(plan)};
+    FirstSweep made{.request = std::move(sweep), .plan = std::move(plan)};
+    for (const auto& measurement : request.at("measurements"))
+      made.measurements.push_back(measurement.at("id").get<std::string>());
+    return made;
   }
 
   [[nodiscard]] std::unique_ptr<StudySampler> make_sampler(const StudyRow& row,

@@ -5,7 +5,9 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "jobs/base/errors.h"
 #include "jobs/base/ids.h"
+#include "jobs/base/study_kind.h"
 #include "jobs/base/time_text.h"
 #include "jobs/store/store_insert.h"
 #include "jobs/trajectories/trajectory_codec.h"
@@ -36,6 +38,13 @@ void insert_measurement(SQLite::Database& database, const MeasurementRow& row, c
   add.bind(5, row.created_ms);
   add.bind(6, row.bytes);
   add.exec();
+}
+
+/// Id of a study that has the measurement in its request.
+std::optional<std::string> find_use(const SQLite::Database& database, const std::string& id) {
+  SQLite::Statement find(database, "SELECT id FROM searches WHERE instr(request, ?) > 0 LIMIT 1");
+  find.bind(1, "\"" + id + "\"");
+  return find.executeStep() ? std::optional(find.getColumn(0).getString()) : std::nullopt;
 }
 
 }  // namespace
@@ -96,16 +105,10 @@ std::vector<MeasurementRow> MeasurementTable::list(const std::string& before, st
   });
 }
 
-std::optional<std::string> MeasurementTable::find_use(const std::string& id) const {
-  return core_.readers.read([&](const SQLite::Database& database) {
-    SQLite::Statement find(database, "SELECT id FROM searches WHERE instr(request, ?) > 0 LIMIT 1");
-    find.bind(1, "\"" + id + "\"");
-    return find.executeStep() ? std::optional(find.getColumn(0).getString()) : std::nullopt;
-  });
-}
-
 bool MeasurementTable::erase(const std::string& id) {
   return core_.write_in_held_room([&](SQLite::Database& database) {
+    if (const auto study = find_use(database, id))
+      throw WrongState("the measurement is used by " + name_of_study(*study) + "; delete that first");
     SQLite::Statement erase(database, "DELETE FROM measurements WHERE id = ?");
     erase.bind(1, id);
     return erase.exec() > 0;

@@ -28,9 +28,8 @@ class MeasurementTable {
   [[nodiscard]] std::optional<std::string> find_samples(const std::string& id) const;
   /// Newest first. @param before  an id; empty: the newest
   [[nodiscard]] std::vector<MeasurementRow> list(const std::string& before, std::size_t limit) const;
-  /// Id of a study that has the measurement in its request.
-  [[nodiscard]] std::optional<std::string> find_use(const std::string& id) const;
   /// Deletes a measurement, also on a full disk. False if there is none.
+  /// @throws WrongState if a study has it in its request
   bool erase(const std::string& id);
 
  private:

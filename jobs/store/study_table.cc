@@ -5,6 +5,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "jobs/base/errors.h"
 #include "jobs/base/time_text.h"
 #include "jobs/store/read_rows.h"
 #include "jobs/store/store_insert.h"
@@ -42,6 +43,18 @@ std::string insert_study(SQLite::Database& database, std::string id, std::int64_
   return id;
 }
 
+/// @throws InvalidRequest if there is not each of the measurements
+void check_measurements(SQLite::Database& database, const std::vector<std::string>& ids) {
+  SQLite::Statement find(database, "SELECT 1 FROM measurements WHERE id = ?");
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    find.reset();
+    find.bind(1, ids[k]);
+    if (!find.executeStep())
+      throw InvalidRequest(std::vector<Fault>{
+          {"/measurements/" + std::to_string(k) + "/id", "there is no measurement " + ids[k]}});
+  }
+}
+
 /// Stores the response to the request that has made a study, if the request has a key.
 void store_study_response(SQLite::Database& database, const IdempotencyRecord<StudySnapshot>& idempotency,
                           const std::string& id, ActiveSweepCache& active) {
@@ -57,8 +70,10 @@ void store_study_response(SQLite::Database& database, const IdempotencyRecord<St
 
 std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request,
                             const std::string& request, std::size_t max_queued,
-                            const IdempotencyRecord<StudySnapshot>& idempotency) {
+                            const IdempotencyRecord<StudySnapshot>& idempotency,
+                            const std::vector<std::string>& measurements) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
+    check_measurements(database, measurements);
     const std::int64_t now_ms = now_unix_ms();
     const std::string sweep_id = core_.ids.make(kSweepPrefix, now_ms);
     const std::int64_t sweep = insert_sweep(database, core_.ids, sweep_id, plan, sweep_request,

@@ -20,11 +20,13 @@ class StudyTable {
  public:
   explicit StudyTable(StoreCore& core) : core_(core) {}
 
-  /// Stores a study with the sweep of its first evaluations. Returns its id. @throws QueueFull as add_sweep()
-  /// does
+  /// Stores a study with the sweep of its first evaluations. Returns its id.
+  /// @param measurements  ids of those in the request's list, which are there as long as the study is
+  /// @throws QueueFull as add_sweep() does; InvalidRequest if a measurement has been deleted in between
   std::string add(std::string_view prefix, const SweepPlan& plan, const std::string& sweep_request,
                   const std::string& request, std::size_t max_queued,
-                  const IdempotencyRecord<StudySnapshot>& idempotency = {});
+                  const IdempotencyRecord<StudySnapshot>& idempotency = {},
+                  const std::vector<std::string>& measurements = {});
   [[nodiscard]] std::optional<StudyRow> find(const std::string& id) const;
   /// Studies of one type, newest first. @param state empty: all  @param before  an id; empty: the newest
   [[nodiscard]] std::vector<StudyRow> list(std::string_view prefix, const std::string& state,

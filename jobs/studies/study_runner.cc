@@ -35,7 +35,7 @@ json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& i
         return *idempotency.response = make_response(std::move(begun));
       }};
   const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
-                                            request.dump(), limits_.max_queued_jobs, record);
+                                            request.dump(), limits_.max_queued_jobs, record, first.measurements);
   ++wakeups_;
   return find(id).value();
 }

@@ -66,6 +66,7 @@ struct StudyChanges {
 struct FirstSweep {
   nlohmann::ordered_json request;
   SweepPlan plan;
+  std::vector<std::string> measurements{};  ///< ids of those in the study's request, in their order
 };
 
 /// Interface of one kind of study. A study is a sweep to which cases are added as its results ask for them.

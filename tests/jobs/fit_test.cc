@@ -16,9 +16,15 @@
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/base/ids.h"
 #include "jobs/fits/fit_signals.h"
+#include "jobs/fits/fit_study.h"
 #include "jobs/measurements/measurement.h"
+#include "jobs/measurements/measurement_codec.h"
 #include "jobs/service.h"
+#include "jobs/store/store.h"
+#include "jobs/studies/study_runner.h"
+#include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
 
 namespace jobs_tests {
@@ -401,6 +407,22 @@ TEST(Fit, KeepsAMeasurementThatItNeeds) {
   EXPECT_THROW((void)service.delete_measurement(measurement), jobs::WrongState);
   EXPECT_TRUE(service.delete_study(kFit, ended.at("id")));
   EXPECT_TRUE(service.delete_measurement(measurement));
+}
+
+TEST(Fit, IsRefusedIfItsMeasurementIsDeletedBeforeItIsStored) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string measurement = store.measurements.add(jobs::pack(measured({4})));
+  const auto find_and_delete = [&](const std::string& id) {
+    auto found = store.measurements.find(id);
+    store.measurements.erase(id);
+    return found;
+  };
+  jobs::StudyRunner runner(store, {.max_sweep_jobs = 1000, .max_queued_jobs = 1000, .threads = 1},
+                           jobs::make_fit_study(store.reader, find_and_delete));
+  const auto faults = faults_of([&] { (void)runner.submit(fit_request(measurement), {}); });
+  EXPECT_EQ(pointers_of(faults), std::vector<std::string>{"/measurements/0/id"});
+  EXPECT_TRUE(store.studies.list(jobs::kFitPrefix, "", "", 10).empty());
 }
 
 TEST(Fit, FitsNoSampleTwice) {

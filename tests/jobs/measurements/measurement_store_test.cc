@@ -2,10 +2,13 @@
 // Measurements in a store, and by way of the service.
 
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "jobs/base/errors.h"
+#include "jobs/base/ids.h"
 #include "jobs/measurements/read_measurement_csv.h"
 #include "jobs/measurements/read_measurement_json.h"
 #include "jobs/service.h"
@@ -13,6 +16,7 @@
 #include "tests/jobs/measurements/measurement_support.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
+#include "tests/jobs/store/store_support.h"
 
 namespace jobs_tests {
 namespace {
@@ -41,6 +45,27 @@ TEST(MeasurementStore, KeepsMeasurementsOverANewStart) {
   EXPECT_TRUE(store.measurements.erase(id));
   EXPECT_FALSE(store.measurements.erase(id));
   EXPECT_FALSE(store.measurements.find(id).has_value());
+}
+
+TEST(MeasurementStore, KeepsWhatAStudyNeedsAndAddsNoStudyWithoutIt) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  const std::string used = store.measurements.add(jobs::pack(sample_measurement()));
+  const std::string other = store.measurements.add(jobs::pack(sample_measurement()));
+  const auto add_fit = [&](const std::vector<std::string>& measurements) {
+    nlohmann::json request;
+    for (const std::string& id : measurements) request["measurements"].push_back({{"id", id}});
+    return store.studies.add(jobs::kFitPrefix, stored_plan_of("{}"), "{}", request.dump(), 10, {},
+                             measurements);
+  };
+  const std::string fit = add_fit({used});
+  EXPECT_THROW((void)store.measurements.erase(used), jobs::WrongState);
+  EXPECT_TRUE(store.measurements.find_row(used).has_value());
+  EXPECT_TRUE(store.measurements.erase(other));
+  EXPECT_EQ(pointers_of(faults_of([&] { (void)add_fit({used, other}); })),
+            std::vector<std::string>{"/measurements/1/id"});
+  ASSERT_EQ(store.studies.list(jobs::kFitPrefix, "", "", 10).size(), 1U);
+  EXPECT_EQ(store.studies.find(fit)->state, "running");
 }
 
 TEST(MeasurementStore, HasAQuota) {
