@@ -126,13 +126,14 @@ json Service::submit_sweep(const nlohmann::ordered_json& request, const std::str
   return answer_once(key, "POST /v1/sweeps " + sha256_hex(text), [&](const IdempotentRequest& idempotency) {
     const SweepPlan plan = plan_sweep(request, options_.max_sweep_jobs);
     if (!plan.executor.empty()) check_executor(plan.executor);
+    json response;
     const auto make_response = [&](const SweepRow& row) {
-      return *idempotency.response = text_of(sweep_resource(row, Detail::kFull));
+      return text_of(response = sweep_resource(row, Detail::kFull));
     };
-    const std::string id = store_->queue.add_sweep(plan, text, options_.max_queued_jobs,
-                                                   {key, idempotency.fingerprint, make_response});
+    store_->queue.add_sweep(plan, text, options_.max_queued_jobs,
+                            {idempotency.key, idempotency.fingerprint, make_response});
     wake();
-    return find_sweep(id).value();
+    return response;
   });
 }
 
@@ -162,28 +163,27 @@ bool Service::may_have_no_room(const SweepPlan& plan) const {
 json Service::submit_job(const json& parameters, const std::string& key) {
   const std::string fingerprint = "POST /v1/jobs " + sha256_hex(parameters.dump());
   return answer_once(key, fingerprint, [&](const IdempotentRequest& idempotency) {
+    json response;
     const auto make_response = [&](const JobRow& row) {
-      return *idempotency.response = text_of(job_json(row, Detail::kFull));
+      return text_of(response = job_json(row, Detail::kFull));
     };
-    const std::string id = store_->queue.add_job(plan_job(parameters), options_.max_queued_jobs,
-                                                 {key, fingerprint, make_response});
+    store_->queue.add_job(plan_job(parameters), options_.max_queued_jobs,
+                          {idempotency.key, idempotency.fingerprint, make_response});
     wake();
-    return find_job(id).value();
+    return response;
   });
 }
 
 json Service::answer_once(const std::string& key, const std::string& fingerprint, const Submit& submit) {
   check_open();
-  std::string response;
-  if (key.empty()) return submit({key, fingerprint, &response});
+  if (key.empty()) return submit({key, fingerprint});
   const InFlightKeys::Use use(keys_, key);
   if (const auto found = store_->reader.find_response(key)) {
     if (found->fingerprint == fingerprint) return json::parse(found->text);
     throw InvalidRequest(std::vector<Fault>{
         {"", "this Idempotency-Key belongs to another request; a new request needs a new key"}});
   }
-  submit({key, fingerprint, &response});
-  return json::parse(response);  // as it is stored, so that both responses are the same
+  return submit({key, fingerprint});
 }
 
 std::optional<json> Service::extend_sweep(const std::string& id, const nlohmann::ordered_json& addition) {

@@ -40,11 +40,12 @@ json Service::submit_measurement(const Measurement& measurement, const std::stri
   const std::string fingerprint =
       "POST /v1/measurements " + sha256_hex(packed.name + "\n" + packed.description + "\n", packed.samples);
   return answer_once(key, fingerprint, [&](const IdempotentRequest& idempotency) {
+    json response;
     const auto make_response = [&](const MeasurementRow& row) {
-      return *idempotency.response = text_of(measurement_resource(row, Detail::kFull));
+      return text_of(response = measurement_resource(row, Detail::kFull));
     };
-    const std::string id = store_->measurements.add(packed, {key, fingerprint, make_response});
-    return find_measurement(id).value();
+    store_->measurements.add(packed, {idempotency.key, idempotency.fingerprint, make_response});
+    return response;
   });
 }
 

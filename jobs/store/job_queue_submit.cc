@@ -29,14 +29,6 @@ void append_cases(SQLite::Database& database, const std::string& id, const nlohm
   }
 }
 
-/// Stores the response to the request that has made a sweep, if the request has a key.
-void store_sweep_response(SQLite::Database& database, const IdempotencyRecord<SweepRow>& idempotency,
-                          const std::string& id, ActiveSweepCache& active) {
-  if (idempotency.key.empty()) return;
-  store_response(database, idempotency.key, idempotency.fingerprint,
-                 idempotency.make_response(read_sweep(database, id, active).value()));
-}
-
 }  // namespace
 
 std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued,
@@ -48,7 +40,7 @@ std::string JobQueue::add_sweep(const SweepPlan& plan, const std::string& reques
         insert_sweep(database, core_.ids, id, plan, request, {now_ms, ++core_.changes, max_queued});
     core_.turns.add(plan.executor, {.negative_priority = -plan.priority, .sweep = sweep},
                     core_.writer.order_version());
-    store_sweep_response(database, idempotency, id, core_.active);
+    respond(database, idempotency, [&] { return read_sweep(database, id, core_.active).value(); });
     core_.check_quota(database);
     return id;
   });
@@ -92,9 +84,7 @@ std::string JobQueue::add_job(const PlannedJob& job, std::size_t max_queued,
                     core_.writer.order_version());
     std::string id = JobInserter(database, core_.ids, now_unix_ms(), ++core_.changes).insert(job, {});
     check_queue_limit(database, max_queued);
-    if (!idempotency.key.empty())
-      store_response(database, idempotency.key, idempotency.fingerprint,
-                     idempotency.make_response(read_job(database, id).value()));
+    respond(database, idempotency, [&] { return read_job(database, id).value(); });
     core_.check_quota(database);
     return id;
   });

@@ -59,8 +59,7 @@ std::string MeasurementTable::add(const PackedMeasurement& measurement,
                              .created_ms = now_ms,
                              .bytes = static_cast<std::int64_t>(measurement.samples.size())};
     insert_measurement(database, row, measurement.samples);
-    if (!idempotency.key.empty())
-      store_response(database, idempotency.key, idempotency.fingerprint, idempotency.make_response(row));
+    respond(database, idempotency, [&] { return row; });
     core_.check_quota(database);
     return row.id;
   });

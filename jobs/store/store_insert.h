@@ -9,6 +9,7 @@
 
 #include "jobs/base/ids.h"
 #include "jobs/requests/expand.h"
+#include "jobs/store/idempotency_record.h"
 
 namespace jobs {
 
@@ -62,6 +63,16 @@ void rekey_queued_jobs(SQLite::Database& database);
 /// Stores the response to a request under its key, and deletes those that are too old.
 void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
                     const std::string& response);
+
+/// Makes the response to the request that has made a row, and stores it if the request has a key.
+/// @param read_row  is asked for the row if anybody wants a response
+template <typename Row, typename ReadRow>
+void respond(SQLite::Database& database, const IdempotencyRecord<Row>& idempotency, const ReadRow& read_row) {
+  if (!idempotency.make_response) return;
+  const std::string response = idempotency.make_response(read_row());
+  if (!idempotency.key.empty())
+    store_response(database, idempotency.key, idempotency.fingerprint, response);
+}
 
 [[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database,
                                                          const std::string& id);

@@ -55,15 +55,11 @@ void check_measurements(SQLite::Database& database, const std::vector<std::strin
   }
 }
 
-/// Stores the response to the request that has made a study, if the request has a key.
-void store_study_response(SQLite::Database& database, const IdempotencyRecord<StudySnapshot>& idempotency,
-                          const std::string& id, ActiveSweepCache& active) {
-  if (idempotency.key.empty()) return;
+StudySnapshot read_snapshot(const SQLite::Database& database, const std::string& id,
+                            ActiveSweepCache& active) {
   StudyRow study = read_study(database, id).value();
   auto results = read_results(database, study.sweep_id, RowParameters::kNone, active);
-  store_response(database, idempotency.key, idempotency.fingerprint,
-                 idempotency.make_response(
-                     {.study = std::move(study), .results = std::move(results).value()}));
+  return {.study = std::move(study), .results = std::move(results).value()};
 }
 
 }  // namespace
@@ -79,7 +75,7 @@ std::string StudyTable::add(std::string_view prefix, const SweepPlan& plan, cons
     const std::int64_t sweep = insert_sweep(database, core_.ids, sweep_id, plan, sweep_request,
                                             {now_ms, ++core_.changes, max_queued});
     std::string id = insert_study(database, core_.ids.make(prefix, now_ms), sweep, request);
-    store_study_response(database, idempotency, id, core_.active);
+    respond(database, idempotency, [&] { return read_snapshot(database, id, core_.active); });
     core_.check_quota(database);
     return id;
   });

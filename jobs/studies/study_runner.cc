@@ -28,21 +28,22 @@ std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
 
 json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
   const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
+  json response;
   const IdempotencyRecord<StudySnapshot> record{
       .key = idempotency.key,
       .fingerprint = idempotency.fingerprint,
       .make_response = [&](StudySnapshot begun) {
-        return *idempotency.response = make_response(std::move(begun));
+        return text_of(response = make_response(std::move(begun)));
       }};
-  const std::string id = store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(),
-                                            request.dump(), limits_.max_queued_jobs, record, first.measurements);
+  store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(), request.dump(),
+                     limits_.max_queued_jobs, record, first.measurements);
   ++wakeups_;
-  return find(id).value();
+  return response;
 }
 
-std::string StudyRunner::make_response(StudySnapshot begun) const {
+json StudyRunner::make_response(StudySnapshot begun) const {
   for (ResultRow& job : begun.results.rows) job.state = state_name(JobState::kQueued);
-  return text_of(type_->make_resource(begun.study, begun.results, limits_.threads));
+  return type_->make_resource(begun.study, begun.results, limits_.threads);
 }
 
 std::optional<json> StudyRunner::find(const std::string& id) const {

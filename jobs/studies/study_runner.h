@@ -110,7 +110,7 @@ class StudyRunner {
   StudyRunner(Store& store, const StudyLimits& limits, std::unique_ptr<StudyType> type)
       : store_(store), limits_(limits), type_(std::move(type)) {}
 
-  /// @param idempotency  without a key, no response is stored
+  /// @param idempotency  without a key, the response is not stored
   /// @throws InvalidRequest, QueueFull
   nlohmann::json submit(const nlohmann::ordered_json& request, const IdempotentRequest& idempotency);
   [[nodiscard]] std::optional<nlohmann::json> find(const std::string& id) const;
@@ -159,7 +159,7 @@ class StudyRunner {
   StudyChanges add_next_cases(const StudyRow& study);
   void set_progress(const std::string& id, double progress);
   /// Response to the request for a study, as it begins: results that are known already have not been told.
-  [[nodiscard]] std::string make_response(StudySnapshot begun) const;
+  [[nodiscard]] nlohmann::json make_response(StudySnapshot begun) const;
 
   Store& store_;
   const StudyLimits limits_;

@@ -242,6 +242,30 @@ TEST(Idempotency, AnswersTheSameRequestAsBefore) {
   EXPECT_EQ(service.list_sweeps({}).at("items").size(), 3U);
 }
 
+// What is read after the commit may fail, or may have been deleted in between.
+TEST(Idempotency, MakesTheAnswerInOneStepWithWhatItAnswersWithoutAKeyToo) {
+  const TemporaryStore temporary;
+  std::vector<std::string> made;
+  const auto note = [&](const auto& row) {
+    made.push_back(row.id);
+    return std::string();
+  };
+  const auto note_study = [&](const jobs::StudySnapshot& begun) { return note(begun.study); };
+  const auto plan = jobs::plan_sweep(request_of("{}"), 10);
+  const jobs::PackedMeasurement measured{.name = "rig", .description = "{}", .samples = "none"};
+  {
+    jobs::Store store(temporary.file());
+    const std::vector<std::string> ids{
+        store.queue.add_sweep(plan, "{}", 10, {.key = {}, .fingerprint = {}, .make_response = note}),
+        store.queue.add_job(plan.jobs.at(0), 10, {.key = {}, .fingerprint = {}, .make_response = note}),
+        store.studies.add("sch_", plan, "{}", "{}", 10,
+                          {.key = {}, .fingerprint = {}, .make_response = note_study}),
+        store.measurements.add(measured, {.key = {}, .fingerprint = {}, .make_response = note})};
+    EXPECT_EQ(made, ids);
+  }
+  EXPECT_EQ(query_sql(temporary.file(), "SELECT count(*) FROM answers"), "0");
+}
+
 TEST(Idempotency, RefusesAKeyOfAnotherRequest) {
   const TemporaryStore temporary;
   FakeEngine engine;
