@@ -13,11 +13,15 @@ constexpr std::int64_t kResponsesAreKept_ms = 7LL * 24 * 3600 * 1000;
 void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
                     const std::string& response) {
   const std::int64_t now_ms = now_unix_ms();
-  SQLite::Statement forget(database, "DELETE FROM answers WHERE created_ms < ?");
-  forget.bind(1, now_ms - kResponsesAreKept_ms);
+  // A week before the newest one, too: a clock that is ahead once must not empty the table.
+  SQLite::Statement forget(
+      database, "DELETE FROM answers WHERE created_ms < min(?1, (SELECT max(created_ms) FROM answers)) - ?2");
+  forget.bind(1, now_ms);
+  forget.bind(2, kResponsesAreKept_ms);
   forget.exec();
-  SQLite::Statement add(database,
-                        "INSERT INTO answers (key, request, answer, created_ms) VALUES (?, ?, ?, ?)");
+  // A response of the same key may be too old to be found, and not deleted yet.
+  SQLite::Statement add(
+      database, "INSERT OR REPLACE INTO answers (key, request, answer, created_ms) VALUES (?, ?, ?, ?)");
   add.bind(1, key);
   add.bind(2, fingerprint);
   add.bind(3, response);

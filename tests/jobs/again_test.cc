@@ -328,6 +328,21 @@ TEST(Idempotency, ForgetsAfterAWeek) {
   EXPECT_NE(service.submit_job(json::object(), "key").dump(), first);
 }
 
+// The times are moved in the place of the clock.
+TEST(Idempotency, OutlivesAClockThatIsAheadForOneRequest) {
+  const TemporaryStore temporary;
+  FakeEngine engine;
+  const auto submit_once = [&](const char* key) {
+    jobs::Service service(options_of(temporary, engine, 1));
+    return service.submit_job(json::object(), key).dump();
+  };
+  const std::string first = submit_once("key");
+  execute_sql(temporary.file(), "UPDATE answers SET created_ms = created_ms - 8 * 24 * 3600 * 1000");
+  submit_once("other key");
+  execute_sql(temporary.file(), "UPDATE answers SET created_ms = created_ms + 8 * 24 * 3600 * 1000");
+  EXPECT_EQ(submit_once("key"), first);
+}
+
 TEST(Priority, ComesBeforeTurns) {
   const TemporaryStore temporary;
   FakeEngine engine;
