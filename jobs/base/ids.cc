@@ -2,12 +2,14 @@
 #include "jobs/base/ids.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <random>
 
 namespace jobs {
 namespace {
 
 constexpr std::string_view kAlphabet = "0123456789abcdefghjkmnpqrstvwxyz";
+constexpr std::size_t kPrefixLength = 4;
 constexpr int kTimeLength = 10;
 constexpr int kHalfChanceLength = 8;
 constexpr std::uint64_t kHalfChanceMask = (std::uint64_t{1} << 40U) - 1;
@@ -36,6 +38,15 @@ void IdMaker::advance(std::int64_t now_unix_ms) {
     if (chance_low_ == 0) chance_high_ = (chance_high_ + 1) & kHalfChanceMask;
     if (chance_low_ == 0 && chance_high_ == 0) ++last_ms_;
   }
+}
+
+void IdMaker::follow(std::string_view id) {
+  if (!is_id(id, id.substr(0, kPrefixLength))) return;
+  std::int64_t ms = 0;
+  for (const char digit : id.substr(kPrefixLength, kTimeLength))
+    ms = 32 * ms + static_cast<std::int64_t>(kAlphabet.find(digit));
+  const std::lock_guard lock(mutex_);
+  advance(ms + 1);
 }
 
 std::string IdMaker::make(std::string_view prefix, std::int64_t now_unix_ms) {

@@ -9,10 +9,12 @@
 namespace jobs {
 
 /// Makes opaque ids that sort by the time of their making: prefix, 10 characters of Unix time in ms, 16 of
-/// chance, in Crockford's base 32 in lower case. Within a process each is greater than the one before,
-/// whatever the clock does.
+/// chance, in Crockford's base 32 in lower case. Each is greater than the one before, whatever the clock does:
+/// where it does not go on, as after it was far ahead once, ids count on from the last one until it does.
 class IdMaker {
  public:
+  /// Makes later ids greater than one of a former process. Does nothing with a text that is no id.
+  void follow(std::string_view id);
   [[nodiscard]] std::string make(std::string_view prefix, std::int64_t now_unix_ms);
 
  private:

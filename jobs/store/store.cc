@@ -7,6 +7,7 @@
 
 #include <sqlite3.h>
 
+#include "jobs/base/ids.h"
 #include "jobs/store/store_insert.h"
 
 namespace jobs {
@@ -16,6 +17,15 @@ namespace {
   throw StoreLimitReached(
       "the disk that holds the store is full; make room on it, or delete sweeps that are not needed any "
       "more");
+}
+
+/// Makes later ids greater than those of the store, which a clock may have made that was ahead. Each maximum
+/// is the end of an index. Studies and batches are not looked at: their ids are of the time of their jobs'.
+void follow_ids(const SQLite::Database& database, IdMaker& ids) {
+  SQLite::Statement newest(database,
+                           "SELECT max(id) FROM sweeps UNION ALL SELECT max(id) FROM jobs UNION ALL SELECT "
+                           "max(id) FROM measurements");
+  while (newest.executeStep()) ids.follow(newest.getColumn(0).getString());
 }
 
 }  // namespace
@@ -42,6 +52,7 @@ void Store::open() {
                            "SELECT coalesce(max(abs(change)), 0) FROM jobs WHERE change IS NOT NULL");
     last.executeStep();
     core_.changes = last.getColumn(0).getInt64();
+    follow_ids(database, core_.ids);
   });
   try {
     core_.with_held_room([&] { core_.begin(); });

@@ -22,6 +22,23 @@ TEST(IdMaker, MakesIdsThatSortByTimeWhateverTheClockDoes) {
   }
 }
 
+TEST(IdMaker, FollowsTheIdsOfAFormerProcess) {
+  jobs::IdMaker former;
+  const std::string last = former.make("job_", 1'700'000'000'000);
+  jobs::IdMaker ids;
+  ids.follow(last);
+  ids.follow("no id");
+  ids.follow("");
+  std::string before = last;
+  for (const std::int64_t time : {1'600'000'000'000, 1'600'000'000'001, 1'700'000'000'000}) {
+    const std::string id = ids.make("job_", time);
+    EXPECT_LT(before, id);
+    before = id;
+  }
+  EXPECT_LT(before, ids.make("job_", 1'700'000'000'002));
+  EXPECT_TRUE(jobs::is_id(before, "job_"));
+}
+
 TEST(IdMaker, MakesNoIdTwice) {
   jobs::IdMaker a;
   jobs::IdMaker b;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include "jobs/base/ids.h"
+#include "jobs/base/time_text.h"
 #include "jobs/results/resource_json.h"
 #include "jobs/store/store.h"
 #include "tests/jobs/service_support.h"
@@ -46,6 +49,42 @@ TEST(Store, ListsByStateTheSweepsWhoseJobsAreInIt) {
     listed += found.size();
   }
   EXPECT_EQ(listed, 125U);
+}
+
+constexpr std::int64_t kDay_ms = 24LL * 3600 * 1000;
+
+TEST(Store, MakesIdsThatFollowThoseOfAClockThatWasAhead) {
+  const TemporaryStore temporary;
+  {
+    jobs::Store store(temporary.file());
+    add_sweep(store, kThreeJobs);
+  }
+  const std::string ahead = jobs::IdMaker().make(jobs::kSweepPrefix, jobs::now_unix_ms() + kDay_ms);
+  execute_sql(temporary.file(), "UPDATE sweeps SET id = '" + ahead + "'");
+  jobs::Store store(temporary.file());
+  const std::string id = add_sweep(store, kThreeJobs);
+  EXPECT_GT(id, ahead);
+  EXPECT_EQ(store.reader.list_sweeps("", "", 10).front().id, id);
+}
+
+TEST(Store, EndsNoStudyBeforeItWasMadeAndItsJobsEnded) {
+  const TemporaryStore temporary;
+  std::string made, computed;
+  {
+    jobs::Store store(temporary.file());
+    for (std::string* const id : {&made, &computed})
+      *id = store.studies.add(jobs::kSearchPrefix, stored_plan_of("{}"), "{}", "{}", 10);
+    static_cast<void>(store.queue.cancel_sweep(store.studies.find(computed)->sweep_id));
+  }
+  const std::int64_t ahead = jobs::now_unix_ms() + kDay_ms;
+  execute_sql(temporary.file(), "UPDATE sweeps SET created_ms = " + std::to_string(ahead));
+  execute_sql(temporary.file(),
+              "UPDATE jobs SET ended_ms = " + std::to_string(ahead + 1) + " WHERE ended_ms IS NOT NULL");
+  jobs::Store store(temporary.file());
+  EXPECT_TRUE(store.studies.set_state(made, "running", "failed"));
+  EXPECT_TRUE(store.studies.set_state(computed, "running", "cancelled"));
+  EXPECT_EQ(store.studies.find(made)->ended_ms, ahead);
+  EXPECT_EQ(store.studies.find(computed)->ended_ms, ahead + 1);
 }
 
 TEST(Store, DropsTheResultOfACancelledJob) {
