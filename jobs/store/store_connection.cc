@@ -131,8 +131,7 @@ std::unique_ptr<ReaderPool::Connection> ReaderPool::take() {
   return std::make_unique<Connection>(store_, index_);
 }
 
-void ReaderPool::put_back(std::unique_ptr<Connection> connection) {
-  constexpr std::size_t kMostIdle = 8;
+void ReaderPool::put_back(std::unique_ptr<Connection> connection) noexcept {
   const std::lock_guard lock(mutex_);
   if (idle_.size() < kMostIdle) idle_.push_back(std::move(connection));
 }

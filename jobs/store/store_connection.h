@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -207,7 +208,9 @@ class Writer {
 /// Read-only connections, kept for the next who needs one.
 class ReaderPool {
  public:
-  ReaderPool(std::filesystem::path store, LogIndex index) : store_(std::move(store)), index_(index) {}
+  ReaderPool(std::filesystem::path store, LogIndex index) : store_(std::move(store)), index_(index) {
+    idle_.reserve(kMostIdle);
+  }
 
   /// Runs work(database) on one consistent snapshot of the store.
   template <typename Work>
@@ -247,7 +250,10 @@ class ReaderPool {
   };
 
   std::unique_ptr<Connection> take();
-  void put_back(std::unique_ptr<Connection> connection);
+  /// Takes no memory: it is called while exceptions are on their way.
+  void put_back(std::unique_ptr<Connection> connection) noexcept;
+
+  static constexpr std::size_t kMostIdle = 8;
 
   const std::filesystem::path store_;
   const LogIndex index_;
