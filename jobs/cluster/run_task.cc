@@ -152,6 +152,12 @@ class Remaining {
     jobs_.erase(jobs_.begin());
   }
 
+  /// Takes back a job that has no result, as there was no memory to note its end.
+  void put_back(const ClaimedJob& job) {
+    const std::lock_guard lock(mutex_);
+    jobs_.emplace(static_cast<BatchIndex>(job.seq), job.parameters);
+  }
+
  private:
   std::mutex mutex_;  // guards jobs_
   BatchJobs jobs_;
@@ -162,7 +168,7 @@ JobSource source_of(Remaining& remaining, Delivery& delivery) {
   return {.claim = [&remaining](const OnClaim& on_claim) { remaining.claim(on_claim); },
           .record = [&delivery](const ClaimedJob& job, const RunRecord& record,
                                 const OnClaim&) { delivery.add(static_cast<BatchIndex>(job.seq), record); },
-          .requeue = [](const ClaimedJob&) {}};
+          .requeue = [&remaining](const ClaimedJob& job) { remaining.put_back(job); }};
 }
 
 /// Looks now and then for the file by which a batch is cancelled.
