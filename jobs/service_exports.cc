@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that the service writes of its store.
 
+#include <cstdint>
 #include <string>
 
 #include "jobs/base/program_info.h"
@@ -20,7 +21,9 @@ bool Service::write_trajectories(const std::string& sweep_id, const TrajectoryEx
   if (!results) return false;
   const std::string program = "rpsup " + std::string(kProgramVersionText);
   const auto is_stopped = [&] { return changes_.is_closed() || (stop && stop()); };
-  if (jobs::write_trajectories(store_->reader, *results, wanted, program, file, is_stopped)) return true;
+  const std::int64_t reserve = options_.store_quota.reserve_bytes;
+  if (jobs::write_trajectories(store_->reader, *results, wanted, program, file, reserve, is_stopped))
+    return true;
   throw Stopped("the service is shutting down");
 }
 

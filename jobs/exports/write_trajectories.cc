@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -109,14 +110,17 @@ void check_has_jobs(const SweepContents& contents, const std::string& sweep_id) 
                      " has a trajectory; one with \"keep\": \"metrics\" has none");
 }
 
-void check_room(const std::filesystem::path& file, double bytes) {
+/// @param reserve_bytes  that stay free on the disk for others
+void check_room(const std::filesystem::path& file, double bytes, std::int64_t reserve_bytes) {
   std::error_code unknown;
   const auto space = std::filesystem::space(std::filesystem::absolute(file).parent_path(), unknown);
-  if (unknown || static_cast<double>(space.available) > bytes) return;
+  const auto reserve = static_cast<double>(reserve_bytes);
+  if (unknown || static_cast<double>(space.available) > bytes + reserve) return;
   const auto megabytes = [](double size) { return std::to_string(std::llround(size / kMegabyte)) + " MB"; };
   throw StoreLimitReached("the file may take " + megabytes(bytes) + " and the disk has " +
-                          megabytes(static_cast<double>(space.available)) +
-                          " left; ask for fewer channels, or for a part of the time");
+                          megabytes(static_cast<double>(space.available)) + " left" +
+                          (reserve > 0.0 ? ", of which " + megabytes(reserve) + " are kept free" : "") +
+                          "; ask for fewer channels, or for a part of the time");
 }
 
 std::unique_ptr<TrajectoryFile> create_file(TrajectoryFileFormat format, const std::filesystem::path& file,
@@ -149,12 +153,12 @@ void throw_unwritten(const std::filesystem::path& file, int system_error) {
 
 bool write_trajectories(const SweepReader& reader, const SweepResults& sweep, const TrajectoryExport& wanted,
                         const std::string& program, const std::filesystem::path& file,
-                        const std::function<bool()>& stop) {
+                        std::int64_t reserve_bytes, const std::function<bool()>& stop) {
   const auto contents = read_contents(reader, sweep, wanted, stop);
   if (!contents) return false;
   check_has_jobs(*contents, sweep.sweep.id);
   check_query(wanted.query, contents->channels);
-  check_room(file, contents->bytes);
+  check_room(file, contents->bytes, reserve_bytes);
   const auto written = create_file(wanted.format, file, make_exported_sweep(sweep, program));
   for (const StoredJob& job : contents->jobs) {
     if (stop()) return false;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <string>
 
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include "jobs/base/errors.h"
+#include "jobs/store/check_quota.h"
 #include "jobs/store/store.h"
 #include "jobs/store/store_connection.h"
 #include "jobs/store/store_lock.h"
@@ -24,6 +28,15 @@ void make_empty_file(const std::filesystem::path& file) {
   ::close(made);
 }
 
+/// @param file  where the copy is to be. @throws StoreLimitReached
+void check_room_for_copy(SQLite::Database& store, const std::filesystem::path& file) {
+  const std::int64_t needed = store.execAndGet(kUsedBytesQuery).getInt64();
+  const std::int64_t left = find_bytes_left(file);
+  if (needed < left) return;
+  throw StoreLimitReached("the copy takes " + in_megabytes(needed) + " and the disk has " + in_megabytes(left) +
+                          " left; make room on it");
+}
+
 int ask_whether_to_stop(void* stop) { return (*static_cast<const std::function<bool()>*>(stop))() ? 1 : 0; }
 
 /// Writes what the store holds now to an empty file. @returns whether stop() let it go on to the end
@@ -34,6 +47,7 @@ bool vacuum_into(const std::filesystem::path& store, const std::filesystem::path
   // one process share the log's index, wherever it is.
   SQLite::Database database(store.string(), SQLite::OPEN_READONLY, kCopyBusyTimeout_ms);
   sqlite3_progress_handler(database.getHandle(), kStepsBetweenQuestions, ask_whether_to_stop, &stop);
+  check_room_for_copy(database, file);
   SQLite::Statement copy(database, "VACUUM INTO ?");
   copy.bind(1, file.string());
   if (copy.tryExecuteStep() == SQLITE_INTERRUPT) return false;

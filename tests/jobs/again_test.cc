@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "jobs/exports/write_trajectories.h"
 #include "jobs/store/store.h"
 #include "tests/jobs/request_support.h"
 #include "tests/jobs/service_support.h"
@@ -381,6 +382,26 @@ TEST(News, TellOfEachJobOnceInTheOrderOfTheEnds) {
   ASSERT_EQ(again.jobs.size(), 1U);
   EXPECT_EQ(again.jobs[0].job.at("job_id"), all.jobs[1].job.at("job_id"));
   EXPECT_FALSE(service.find_news("swp_none", 0).has_value());
+}
+
+TEST(FileOfTrajectories, LeavesTheReserveOfTheDisk) {
+  const TemporaryStore temporary;
+  FakeEngine engine;
+  const auto folder = temporary.file().parent_path();
+  const jobs::TrajectoryExport npz{.format = jobs::TrajectoryFileFormat::kNpz};
+  auto options = options_of(temporary, engine, 1);
+  std::string id;
+  {
+    jobs::Service service(options);
+    id = submit(service, R"({"sweep": {"crank_velocity_rad_s": [5, 6]}})");
+    await(service, id);
+    EXPECT_TRUE(service.write_trajectories(id, npz, folder / "first.npz"));
+  }
+  options.store_quota.reserve_bytes =
+      static_cast<std::int64_t>(std::filesystem::space(folder).capacity) + 1;
+  const jobs::Service service(options);
+  EXPECT_THROW((void)service.write_trajectories(id, npz, folder / "second.npz"), jobs::StoreLimitReached);
+  EXPECT_FALSE(std::filesystem::exists(folder / "second.npz"));
 }
 
 TEST(CopyOfTheStore, IsAStoreWithAllOfIt) {
