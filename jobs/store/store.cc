@@ -124,6 +124,10 @@ void StoreCore::begin() {
         "UPDATE jobs SET state = 'queued', started_ms = NULL WHERE state = 'running' AND batch IS NULL");
     release_batches_of_other_engines(database);
     rekey_queued_jobs(database);
+    // For listings; it belongs to no form of the store, which former programs can use with it and without.
+    database.exec(
+        "CREATE INDEX IF NOT EXISTS unsuccessful_jobs ON jobs (state, id) WHERE state = 'failed' OR state = "
+        "'cancelled'");
   });
   begun_ = true;
 }

@@ -2,12 +2,14 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include "jobs/base/ids.h"
+#include "jobs/base/states.h"
 #include "jobs/base/time_text.h"
 #include "jobs/results/resource_json.h"
 #include "jobs/store/store.h"
@@ -49,6 +51,36 @@ TEST(Store, ListsByStateTheSweepsWhoseJobsAreInIt) {
     listed += found.size();
   }
   EXPECT_EQ(listed, 125U);
+}
+
+TEST(Store, ListsTheJobsInAStateNewestFirst) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  add_sweep(store, R"({"sweep": {"crank_velocity_rad_s": {"from": 1, "to": 2, "count": 24}}})");
+  {
+    SQLite::Database other(temporary.file().string(), SQLite::OPEN_READWRITE);
+    other.exec("INSERT INTO batches (seq, id, engine_version, created_ms) VALUES (1, 'bat_1', '', 1)");
+    other.exec(
+        "UPDATE jobs SET state = CASE seq % 5 WHEN 1 THEN 'running' WHEN 2 THEN 'succeeded' WHEN 3 THEN "
+        "'failed' WHEN 4 THEN 'cancelled' ELSE 'queued' END");
+    other.exec("UPDATE jobs SET batch = 1, place = seq WHERE seq % 5 < 2 AND seq % 2 = 0");
+    constexpr const char* kIndex = "SELECT count(*) FROM sqlite_schema WHERE name = 'unsuccessful_jobs'";
+    EXPECT_EQ(other.execAndGet(kIndex).getInt(), 1) << "by which the failed and cancelled ones are found";
+  }
+  const auto all = store.reader.list_jobs("", "", 100);
+  ASSERT_EQ(all.size(), 24U);
+  for (const std::string_view state : jobs::kJobStates) {
+    std::vector<std::string> expected, listed;
+    for (const jobs::JobRow& job : all)
+      if (job.state == state) expected.push_back(job.id);
+    EXPECT_GE(expected.size(), 4U);
+    for (std::string before; listed.size() < expected.size(); before = listed.back()) {
+      const auto page = store.reader.list_jobs(std::string(state), before, 2);
+      ASSERT_FALSE(page.empty()) << state;
+      for (const jobs::JobRow& job : page) listed.push_back(job.id);
+    }
+    EXPECT_EQ(listed, expected) << state;
+  }
 }
 
 constexpr std::int64_t kDay_ms = 24LL * 3600 * 1000;
