@@ -118,9 +118,9 @@ class Writer {
     return write_with(durability, std::forward<Work>(work), database_, Order::kInvalidated);
   }
 
-  /// Version of the scheduling order, for who keeps one: number of the transactions, with the one at hand,
-  /// that may have queued jobs. Those of write_often() that did not fail do not count. Under the writer's
-  /// lock, within work.
+  /// Version of the scheduling order, for who keeps one. Grows with each write(), and with each write_often()
+  /// that fails or calls invalidate_order(). The transaction at hand counts. Under the writer's lock, within
+  /// work.
   [[nodiscard]] std::uint64_t order_version() const { return order_version_; }
   /// Marks the transaction at hand as one that queues jobs. Within work of write_often().
   void invalidate_order() { ++order_version_; }

@@ -1,4 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+// States of a store as it is opened, one after the other:
+// - locked: StoreLock keeps out others that come by the store's name, StoreFileLock those that come by
+//   another one.
+// - opened: Writer has brought it to the newest form. Its file is as it was, what is new stands in the log.
+// - begun: StoreCore::begin() has queued again what was running. On a full disk this waits for room, and
+//   until then no job is claimed.
+// - accepted: all that a start reads could be read. From Writer::accept() on the log is moved into the file.
+// - kept: files that were made here stay when it is closed. keep(false) gives them up again.
+// - room held: StoreLock::hold_room() has set aside room on the disk, in the lock's file. LentRoom lends it
+//   to one who makes the store smaller. On a full disk there may be none.
 #pragma once
 
 #include <atomic>
