@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// SQL: the column place of jobs is their batch_index.
 #include "jobs/store/cluster_batches.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// SQL: the table searches holds the studies of all kinds.
 #include "jobs/store/measurement_table.h"
 
 #include <cstdint>

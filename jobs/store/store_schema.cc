@@ -15,7 +15,9 @@ namespace {
 
 constexpr int kApplicationId = 0x52505355;  // "RPSU"
 
-/// Step i brings a store from version i to i + 1. A released step is never changed; new ones follow.
+/// Step i brings a store from version i to i + 1. A released step is never changed; new ones follow. So some
+/// names are older than what they hold: searches has the studies of all kinds, answers the responses that are
+/// kept for idempotency keys, jobs.place the batch_index. A jobs.change below 0 is that of a former end.
 constexpr std::array<const char*, 6> kMigrations{R"sql(
   CREATE TABLE sweeps (
     seq INTEGER PRIMARY KEY,

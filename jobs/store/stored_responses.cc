@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// SQL: the table answers holds the responses that are kept for idempotency keys.
 #include "jobs/base/time_text.h"
 #include "jobs/store/store_insert.h"
 #include "jobs/store/sweep_reader.h"
