@@ -53,8 +53,8 @@ class JobQueue {
   /// `former` any more.
   bool extend_sweep(const std::string& id, const std::string& former, const std::string& request,
                     const std::vector<PlannedJob>& jobs, std::size_t max_queued);
-  /// Adds cases to the request of a sweep that has some, and their jobs. False, and nothing is stored, if
-  /// there is no such sweep.
+  /// Adds cases to the request of a sweep that has some, and their jobs, however many wait: its study has
+  /// been accepted, and would not go on. False, and nothing is stored, if there is no such sweep.
   bool add_cases(const std::string& id, const nlohmann::ordered_json& cases,
                  const std::vector<PlannedJob>& jobs);
   /// Queues the failed and cancelled jobs of a sweep again; those whose result has become known succeed at
