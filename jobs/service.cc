@@ -106,9 +106,9 @@ void Service::start() {
       pool->wake();
       tell_change();
     };
-    executors_.push_back(std::make_shared<cluster::SlurmExecutor>(
-        options_.site, store_->batches, filter_of(kSlurmExecutor), options_.job_limits, tell_pool,
-        options_.log));
+    executors_.push_back(
+        std::make_shared<cluster::SlurmExecutor>(options_.site, store_->batches, filter_of(kSlurmExecutor),
+                                                 options_.job_limits, tell_pool, options_.log));
   }
   study_thread_ = std::jthread([this] { run_studies(); });
 }

@@ -9,8 +9,8 @@
 namespace jobs {
 
 /// Makes opaque ids that sort by the time of their making: prefix, 10 characters of Unix time in ms, 16 of
-/// chance, in Crockford's base 32 in lower case. Each is greater than the one before, whatever the clock does:
-/// where it does not go on, as after it was far ahead once, ids count on from the last one until it does.
+/// chance, in Crockford's base 32 in lower case. Each is greater than the one before, whatever the clock
+/// does. After one that was far ahead, ids count on from there until the clock is there again.
 class IdMaker {
  public:
   /// Makes later ids greater than one of a former process. Does nothing with a text that is no id.

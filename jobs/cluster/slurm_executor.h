@@ -105,7 +105,7 @@ class SlurmExecutor : public Executor {
   std::mutex mutex_;  // guards wakes_
   std::condition_variable_any woken_;
   std::uint64_t wakes_ = 1;
-  std::uint64_t seen_wakes_ = 0;         ///< by refresh_wanted(), of the thread alone
+  std::uint64_t seen_wakes_ = 0;  ///< by refresh_wanted(), of the thread alone
 
   std::mutex stop_mutex_;  // guards thread_, which stop() may join but once
   std::jthread thread_;

@@ -34,7 +34,8 @@ void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
   const std::int64_t left = find_bytes_left(file);
   if (left >= reserve_bytes) return;
   throw StoreLimitReached(
-      "the disk that holds the store has " + in_megabytes(left) + " left, and " + in_megabytes(reserve_bytes) +
+      "the disk that holds the store has " + in_megabytes(left) + " left, and " +
+      in_megabytes(reserve_bytes) +
       " of it are kept free; make room on it, or delete sweeps that are not needed any more");
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs and sweeps that are cancelled, retried, moved or deleted.
-// SQL: the table searches holds the studies of all kinds, the column place of jobs is their batch_index, and a
-// change below 0 is that of a former end, of a job that was queued again.
+// SQL: the table searches holds the studies of all kinds, the column place of jobs is their batch_index, and
+// a change below 0 is that of a former end, of a job that was queued again.
 
 #include <algorithm>
 

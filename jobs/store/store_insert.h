@@ -70,8 +70,7 @@ template <typename Row, typename ReadRow>
 void respond(SQLite::Database& database, const IdempotencyRecord<Row>& idempotency, const ReadRow& read_row) {
   if (!idempotency.make_response) return;
   const std::string response = idempotency.make_response(read_row());
-  if (!idempotency.key.empty())
-    store_response(database, idempotency.key, idempotency.fingerprint, response);
+  if (!idempotency.key.empty()) store_response(database, idempotency.key, idempotency.fingerprint, response);
 }
 
 [[nodiscard]] std::optional<std::int64_t> find_sweep_seq(const SQLite::Database& database,

@@ -111,7 +111,8 @@ std::vector<StudyRow> StudyTable::list(std::string_view prefix, const std::strin
 bool StudyTable::set_state(const std::string& id, const std::string& former, const std::string& state,
                            const std::optional<std::string>& error) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    SQLite::Statement set(database,
+    SQLite::Statement set(
+        database,
         "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE "
         "max(?3, (SELECT created_ms FROM sweeps WHERE seq = searches.sweep), "
         "(SELECT coalesce(max(ended_ms), 0) FROM jobs WHERE jobs.sweep = searches.sweep)) END "

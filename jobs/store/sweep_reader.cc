@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SQL: the table searches holds the studies of all kinds. A change of jobs below 0 is that of a former end, of
-// a job that was queued again.
+// SQL: the table searches holds the studies of all kinds. A change of jobs below 0 is that of a former end,
+// of a job that was queued again.
 #include "jobs/store/sweep_reader.h"
 
 #include <algorithm>

@@ -29,12 +29,11 @@ std::optional<StudyRow> StudyRunner::find_row(const std::string& id) const {
 json StudyRunner::submit(const ordered_json& request, const IdempotentRequest& idempotency) {
   const FirstSweep first = type_->plan_first(request, limits_.max_sweep_jobs);
   json response;
-  const IdempotencyRecord<StudySnapshot> record{
-      .key = idempotency.key,
-      .fingerprint = idempotency.fingerprint,
-      .make_response = [&](StudySnapshot begun) {
-        return text_of(response = make_response(std::move(begun)));
-      }};
+  const IdempotencyRecord<StudySnapshot> record{.key = idempotency.key,
+                                                .fingerprint = idempotency.fingerprint,
+                                                .make_response = [&](StudySnapshot begun) {
+                                                  return text_of(response = make_response(std::move(begun)));
+                                                }};
   store_.studies.add(type_->id_prefix(), first.plan, first.request.dump(), request.dump(),
                      limits_.max_queued_jobs, record, first.measurements);
   ++wakeups_;

@@ -397,8 +397,7 @@ TEST(FileOfTrajectories, LeavesTheReserveOfTheDisk) {
     await(service, id);
     EXPECT_TRUE(service.write_trajectories(id, npz, folder / "first.npz"));
   }
-  options.store_quota.reserve_bytes =
-      static_cast<std::int64_t>(std::filesystem::space(folder).capacity) + 1;
+  options.store_quota.reserve_bytes = static_cast<std::int64_t>(std::filesystem::space(folder).capacity) + 1;
   const jobs::Service service(options);
   EXPECT_THROW((void)service.write_trajectories(id, npz, folder / "second.npz"), jobs::StoreLimitReached);
   EXPECT_FALSE(std::filesystem::exists(folder / "second.npz"));

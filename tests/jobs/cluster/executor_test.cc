@@ -161,8 +161,8 @@ TEST_F(ClusterTest, WakesTheLocalPoolForWhatHasWaitedForAJobThatFails) {
   const std::string there = submit_failing("slurm");
   const auto batch = await_generation(0);
   const std::string here = submit_failing("local");
-  const auto other = ordered_json::parse(
-      R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "executor": "local"})");
+  const auto other =
+      ordered_json::parse(R"({"parameters": {"duration_s": 0.1, "run_up_s": 0.05}, "executor": "local"})");
   // The local pool has looked at the job that waits, and has left it.
   ASSERT_TRUE(service_->wait_for_sweep(service_->submit_sweep(other).at("id"), 300s));
   EXPECT_EQ(counts(here).at("queued"), 1);

@@ -62,7 +62,9 @@ TEST(MeasurementStore, KeepsWhatAStudyNeedsAndAddsNoStudyWithoutIt) {
   EXPECT_THROW((void)store.measurements.erase(used), jobs::WrongState);
   EXPECT_TRUE(store.measurements.find_row(used).has_value());
   EXPECT_TRUE(store.measurements.erase(other));
-  EXPECT_EQ(pointers_of(faults_of([&] { (void)add_fit({used, other}); })),
+  EXPECT_EQ(pointers_of(faults_of([&] {
+              (void)add_fit({used, other});
+            })),
             std::vector<std::string>{"/measurements/1/id"});
   ASSERT_EQ(store.studies.list(jobs::kFitPrefix, "", "", 10).size(), 1U);
   EXPECT_EQ(store.studies.find(fit)->state, "running");

@@ -50,7 +50,8 @@ class EndingStudy final : public jobs::StudyType {
   }
   [[nodiscard]] json make_summary(const jobs::StudyRow& study) const override { return {{"id", study.id}}; }
   [[nodiscard]] const std::vector<std::string>& listing_keys() const override { return keys_; }
-  [[nodiscard]] jobs::ResultTable make_table(const jobs::StudyRow&, const jobs::SweepResults&) const override {
+  [[nodiscard]] jobs::ResultTable make_table(const jobs::StudyRow&,
+                                             const jobs::SweepResults&) const override {
     return {};
   }
 
@@ -66,8 +67,8 @@ class StudyRunnerTest : public testing::Test {
 
   TemporaryStore temporary_;
   jobs::Store store_{temporary_.file()};
-  jobs::StudyRunner runner_{store_, {.max_sweep_jobs = 100, .max_queued_jobs = 100, .threads = 1},
-                            std::make_unique<EndingStudy>()};
+  jobs::StudyRunner runner_{
+      store_, {.max_sweep_jobs = 100, .max_queued_jobs = 100, .threads = 1}, std::make_unique<EndingStudy>()};
 };
 
 TEST_F(StudyRunnerTest, LetsOthersGoOnBesideAStudyThatFails) {
