@@ -65,8 +65,9 @@ std::optional<Refusal> read_header_line(std::string_view line, Framing& framing)
   const std::string name = lower(line.substr(0, colon));
   const std::string_view value = trimmed(line.substr(colon + 1));
   // A proxy may drop headers without a value: the request would come as one without a key, and be stored
-  // twice.
+  // twice, or without a condition, and be done in any state.
   if (name == "idempotency-key" && value.empty()) return Refusal{400, "Idempotency-Key has no value"};
+  if (name == "if-match" && value.empty()) return Refusal{400, "If-Match has no value"};
   note_framing(name, value, framing);
   return std::nullopt;
 }

@@ -16,6 +16,7 @@ namespace {
 enum class WeakTags { kCount, kDoNotCount };
 
 /// @returns whether a list of tags has this one, or is "*"
+/// @param tag   empty: there is none
 /// @param weak  to read something, tags marked as weak count: bodies are the same to the byte or differ
 bool has_tag(std::string_view list, std::string_view tag, WeakTags weak) {
   while (!list.empty()) {
@@ -25,7 +26,8 @@ bool has_tag(std::string_view list, std::string_view tag, WeakTags weak) {
     while (item.starts_with(' ') || item.starts_with('\t')) item.remove_prefix(1);
     while (item.ends_with(' ') || item.ends_with('\t')) item.remove_suffix(1);
     if (weak == WeakTags::kCount && item.starts_with("W/")) item.remove_prefix(2);
-    if (item == tag || item == "*") return true;
+    // Empty items mean nothing (RFC 9110, section 5.6.1.2), not even where there is no tag.
+    if (!item.empty() && (item == tag || item == "*")) return true;
   }
   return false;
 }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -174,8 +175,12 @@ Response Routes::run_route(const Route& route, const Request& request, std::stri
     return one.handler({service_, asked, id, draining_, *metrics_, long_poll_limit_, store_copy_limit_,
                         stream_limit_, export_limit_});
   };
-  if (!changes_existing(route) || request.if_match.empty()) return answer_by(route, request);
-  const std::lock_guard one_at_a_time(if_match_mutex_);  // two with the same tag: one has seen the other
+  if (!changes_existing(route)) return answer_by(route, request);
+  if (request.if_match.empty()) {
+    const std::shared_lock beside_others(change_mutex_);
+    return answer_by(route, request);
+  }
+  const std::lock_guard alone(change_mutex_);  // nothing changes between the look and the change
   if (const Route* changed = find_changed(route))
     check_if_match(request, answer_by(*changed, make_get_of(request)));
   return answer_by(route, request);

@@ -3,7 +3,7 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
+#include <shared_mutex>
 #include <string>
 #include <string_view>
 
@@ -41,7 +41,8 @@ class Routes {
   jobs::Service& service_;
   std::shared_ptr<Metrics> metrics_;
   std::atomic<bool> draining_ = false;
-  mutable std::mutex if_match_mutex_;  ///< held from the look at what is there to the end of its change
+  /// Held during every change of what is there; with If-Match alone, from the look at it on
+  mutable std::shared_mutex change_mutex_;
   mutable LongPollLimit long_poll_limit_;
   mutable StoreCopyLimit store_copy_limit_;
   // Each of these may take some 40 MB.

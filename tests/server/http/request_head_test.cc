@@ -56,6 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         HeadCase{"BareCarriageReturn", "GET / HTTP/1.1\r\nHost: a\r\nX: 1\rY: 2", 400},
         HeadCase{"Nul", "GET / HTTP/1.1\r\nHost: a\r\nX: 1" + std::string(1, '\0'), 400},
         HeadCase{"EmptyKey", "POST / HTTP/1.1\r\nHost: a\r\nidempotency-key: ", 400},
+        HeadCase{"ConditionWithoutValue", "DELETE /v1/sweeps/a HTTP/1.1\r\nHost: a\r\nIf-Match: ", 400},
         HeadCase{"Key", "POST / HTTP/1.1\r\nHost: a\r\nIdempotency-Key: a", 0},
         HeadCase{"NulInValue", "GET / HTTP/1.1\r\nHost: localhost" + std::string(1, '\0') + ".evil.example",
                  400},

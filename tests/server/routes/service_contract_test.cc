@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -109,10 +110,40 @@ TEST(ETag, GuardsWhatHasChangedSince) {
   const std::string running = "/v1/sweeps/" + other.submit(kContractSweep);
   server::Request cancel{
       .method = "POST", .path = running + "/cancel", .query = {}, .accept = {}, .body = {}, .id = "test-1"};
-  cancel.if_match = seen;
-  EXPECT_EQ(other.call(cancel).status, 412);
+  for (const std::string& tags : {seen, ", " + seen, std::string(",")}) {
+    cancel.if_match = tags;
+    EXPECT_EQ(other.call(cancel).status, 412) << tags << ": it has no tag yet";
+  }
   cancel.if_match = "*";
   EXPECT_EQ(other.call(cancel).status, 200);
+}
+
+TEST(ETag, GuardsAgainstChangesThatNameNone) {
+  Bench bench;
+  const std::string path = "/v1/sweeps/" + bench.run(kContractSweep);
+  const auto ask = [&](const std::string& method, const std::string& body, const std::string& tag) {
+    server::Request request{
+        .method = method, .path = path, .query = {}, .accept = {}, .body = body, .id = "test-1"};
+    request.if_match = tag;
+    return bench.routes().answer(request);
+  };
+  const std::jthread colleague([&](const std::stop_token& stop) {
+    for (int k = 0; !stop.stop_requested(); ++k) {
+      EXPECT_EQ(ask("PATCH", R"({"notes": ")" + std::to_string(k) + R"("})", "").status, 200);
+      std::this_thread::sleep_for(10ms);
+    }
+  });
+  int changes = 0;
+  for (int tries = 0; tries < 3000 && changes < 100; ++tries) {
+    const auto seen = ask("GET", "", "");
+    const std::string tags = R"({"tags": [")" + std::to_string(tries) + R"("]})";
+    const auto changed = ask("PATCH", tags, header(seen, "ETag"));
+    if (changed.status == 412) continue;
+    ++changes;
+    ASSERT_EQ(json::parse(changed.body).at("notes"), json::parse(seen.body).at("notes"))
+        << "the colleague's change came between the look and the change";
+  }
+  EXPECT_GT(changes, 0);
 }
 
 /// Waits until a service answers that it is full. False after some seconds.
