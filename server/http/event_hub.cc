@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/http/event_hub.h"
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <exception>
 #include <new>
@@ -18,12 +20,18 @@ namespace {
 constexpr std::chrono::milliseconds kPollInterval{200};
 constexpr std::chrono::seconds kKeepAliveInterval{15};      // proxies and browsers close silent connections
 constexpr std::size_t kMaxUnsentBytes = 16 * 1024 * 1024;  // of a client that does not read
+constexpr const char* kComment = ":\n\n";                  // means nothing to the client
 
-/// @returns whether the client has closed its end. Bytes that the client sends are not looked at.
-bool is_closed(int socket) {
-  char byte = 0;
-  const ssize_t got = ::recv(socket, &byte, 1, MSG_DONTWAIT);
-  return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
+enum class ClientEnd { kOpen, kShut, kBroken };
+
+/// State of the client's end. Bytes that the client sends are not looked at.
+ClientEnd look_at_end(int socket) {
+  std::array<char, 1024> ignored;  // unread bytes would make close() reset the connection
+  static_cast<void>(::recv(socket, ignored.data(), ignored.size(), MSG_DONTWAIT));
+  // After the end of what the client sends, recv() does not tell of a connection that is reset.
+  pollfd entry{socket, POLLRDHUP, 0};
+  if (::poll(&entry, 1, 0) <= 0) return ClientEnd::kOpen;
+  return (entry.revents & (POLLERR | POLLHUP)) != 0 ? ClientEnd::kBroken : ClientEnd::kShut;
 }
 
 /// Sends as much as the socket takes at once. False if the client is gone.
@@ -38,7 +46,8 @@ bool send_some(int socket, std::string& text) {
 
 }  // namespace
 
-EventHub::EventHub() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
+EventHub::EventHub(std::chrono::milliseconds stall_time)
+    : stall_time_(stall_time), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 EventHub::~EventHub() { stop(); }
 
@@ -91,18 +100,31 @@ void EventHub::serve_streams(std::unique_lock<std::mutex>& lock, const std::stop
   }
 }
 
-bool EventHub::serve(Stream& stream) {
+bool EventHub::serve(Stream& stream) const {
+  const auto now = Clock::now();
+  const bool all_was_sent = stream.unsent.empty();
+  if (!append_next(stream)) return false;
+  if (stream.unsent.empty() && now - stream.last_taken > kKeepAliveInterval) stream.unsent = kComment;
+  const std::size_t offered = stream.unsent.size();
+  if (offered > kMaxUnsentBytes || !send_some(stream.socket, stream.unsent)) return false;
+  if (offered > 0 && (all_was_sent || stream.unsent.size() < offered)) stream.last_taken = now;
+  if (stream.unsent.empty()) return !stream.events->has_ended();
+  return now - stream.last_taken < stall_time_;
+}
+
+bool EventHub::append_next(Stream& stream) {
+  const ClientEnd end = look_at_end(stream.socket);
+  if (end == ClientEnd::kBroken) return false;
   try {
-    if (is_closed(stream.socket)) return false;
     if (!stream.events->has_ended()) stream.unsent += stream.events->next();
+    // A client that sends no more may read on (RFC 9293, section 3.6). One that has closed resets the
+    // connection when it is sent something.
+    if (end == ClientEnd::kShut && !std::exchange(stream.client_has_shut, true)) stream.unsent += kComment;
   } catch (const std::exception& error) {  // of the store; the client reconnects with its Last-Event-ID
     log_error("events end early: {}", error.what());
     return false;
   }
-  if (stream.unsent.empty() && Clock::now() - stream.last_sent > kKeepAliveInterval) stream.unsent = ":\n\n";
-  if (stream.unsent.size() > kMaxUnsentBytes) return false;
-  if (!stream.unsent.empty()) stream.last_sent = Clock::now();
-  return send_some(stream.socket, stream.unsent) && !(stream.unsent.empty() && stream.events->has_ended());
+  return true;
 }
 
 }  // namespace server

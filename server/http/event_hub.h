@@ -20,7 +20,8 @@ class EventHub {
  public:
   static constexpr std::size_t kMaxStreams = 64;
 
-  EventHub();
+  /// @param stall_time  wait until a client takes more of its events, before its connection is closed
+  explicit EventHub(std::chrono::milliseconds stall_time);
   ~EventHub();  ///< closes every connection
   EventHub(const EventHub&) = delete;
   EventHub& operator=(const EventHub&) = delete;
@@ -44,16 +45,20 @@ class EventHub {
     int socket;
     std::shared_ptr<EventSource> events;
     std::string unsent{};
-    Clock::time_point last_sent{Clock::now()};
+    Clock::time_point last_taken{Clock::now()};  ///< by the client, or when what it does not take came
+    bool client_has_shut = false;                ///< its half of the connection
   };
 
   void work(const std::stop_token& stop);
   /// Serves each stream once, without the lock.
   void serve_streams(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   /// False when the connection is to be closed.
-  static bool serve(Stream& stream);
+  bool serve(Stream& stream) const;
+  /// Appends what is new to the text that is not sent. False if the client is gone or the events are lost.
+  static bool append_next(Stream& stream);
 
-  std::mutex mutex_;  // guards all but the thread
+  const std::chrono::milliseconds stall_time_;
+  std::mutex mutex_;  // guards the rest but the thread
   std::condition_variable_any changed_;
   std::list<Stream> streams_;
   std::vector<std::weak_ptr<EventSource>> reserved_;

@@ -88,6 +88,7 @@ GuardedServer::GuardedServer(const HttpLimits& limits,
       busy_(make_refusal_(503, "as many requests as may wait are waiting; try again")),
       no_memory_answer_(
           text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
+      event_hub_(limits.event_stall_time),
       acceptor_(
           {.head_bytes = limits.head_bytes,
            .head_time = limits.head_time,

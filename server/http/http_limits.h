@@ -21,6 +21,7 @@ struct HttpLimits {
       256 * 1024;  ///< bytes that extend response_time by 1 s: stores have gigabytes
   std::chrono::milliseconds stall_time{
       10'000};  ///< sum of the waits until the client takes more of the answer
+  std::chrono::milliseconds event_stall_time{30'000};  ///< each wait until the client takes more events
   std::size_t least_bytes_per_s = 1024;          ///< bytes that extend stall_time by 1 s
   std::chrono::milliseconds linger_time{2'000};  ///< wait for the client to close its end
   std::chrono::milliseconds crowded_time{
