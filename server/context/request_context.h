@@ -23,6 +23,7 @@ struct RequestContext {
   StoreCopyLimit& store_copy_limit;
   WorkLimit& stream_limit;  ///< of long trajectories that are being sent
   WorkLimit& export_limit;  ///< of files with the trajectories of a sweep, until they have been sent
+  WorkPermit& permit;       ///< of this request, if it may take much memory
 };
 
 }  // namespace server

@@ -22,6 +22,9 @@ struct OtherAnswer {
   AnswerForm form;
 };
 
+/// How much memory and time a route may take: as its request says by its size, or much in any case.
+enum class Work { kBySize, kLarge };
+
 /// One route: method and pattern, handler, and entry of the OpenAPI document, which has no other source of
 /// routes.
 struct Route {
@@ -41,6 +44,7 @@ struct Route {
   std::vector<int> bodiless = {};  ///< statuses of other answers without a body that are no problems
   bool partial = false;  ///< whether 206 answers a Range, with the same forms
   std::vector<int> problems = {};              ///< statuses beside those of any request
+  Work work = Work::kBySize;
 };
 
 /// @returns whether a route changes something that is there, which If-Match guards

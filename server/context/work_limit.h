@@ -58,4 +58,24 @@ class WorkLimit {
   const std::function<void()> on_idle_;
 };
 
+/// Permit of one request, which it gives back while it waits for something else.
+class WorkPermit {
+ public:
+  static constexpr const char* kRefusal = "as many large requests wait as may; try again";
+
+  /// @param limit  null: the request needs no permit
+  explicit WorkPermit(WorkLimit* limit) : limit_(limit) {}
+
+  /// Waits for the permit, unless it is there. False as WorkLimit::acquire() is null.
+  [[nodiscard]] bool acquire() {
+    if (limit_ != nullptr && !permit_) permit_ = limit_->acquire();
+    return limit_ == nullptr || permit_ != nullptr;
+  }
+  void give_back() { permit_.reset(); }
+
+ private:
+  WorkLimit* limit_;
+  std::shared_ptr<const void> permit_;
+};
+
 }  // namespace server

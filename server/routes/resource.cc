@@ -3,18 +3,22 @@
 
 #include <utility>
 
+#include "server/context/work_limit.h"
 #include "server/messages/conditional.h"
+#include "server/messages/error_answer.h"
 #include "server/messages/json_text.h"
 
 namespace server {
 
 namespace {
 
-/// Waits for the end if the client prefers to. True if it waited.
+/// Waits for the end if the client prefers to, without the permit, which others need. True if it waited.
 bool wait_as_preferred(const RequestContext& context, const Resource& resource, const std::string& id,
                        Response& response) {
-  return context.long_poll_limit.wait(context.request, response,
-                                      [&](std::chrono::seconds time) { resource.wait_for(id, time); });
+  return context.long_poll_limit.wait(context.request, response, [&](std::chrono::seconds time) {
+    context.permit.give_back();
+    resource.wait_for(id, time);
+  });
 }
 
 }  // namespace
@@ -30,7 +34,9 @@ nlohmann::json under_base_path(const Request& request, nlohmann::json resource) 
 Response respond_created(const RequestContext& context, const Resource& resource, nlohmann::json created) {
   const std::string id = created.at("id");
   Response response = json_response(201, "");
-  if (wait_as_preferred(context, resource, id, response)) created = resource.find(id).value_or(created);
+  // What is stored is answered: without the permit, as it was created.
+  if (wait_as_preferred(context, resource, id, response) && context.permit.acquire())
+    created = resource.find(id).value_or(created);
   response.body = to_text(under_base_path(context.request, std::move(created))) + "\n";
   response.headers.emplace_back("Location", context.request.base_path + resource.path + id);
   return response;
@@ -38,7 +44,8 @@ Response respond_created(const RequestContext& context, const Resource& resource
 
 Response respond_found(const RequestContext& context, const Resource& resource) {
   Response response = json_response(200, "");
-  wait_as_preferred(context, resource, context.id, response);
+  if (wait_as_preferred(context, resource, context.id, response) && !context.permit.acquire())
+    return make_retry_later(503, WorkPermit::kRefusal);
   const auto found = resource.find(context.id);
   if (!found) throw resource.missing(context.id);
   response.body = to_text(under_base_path(context.request, *found)) + "\n";

@@ -49,14 +49,15 @@ std::vector<Route> make_sweep_routes() {
        .query = {"row_format", "fields", "order_by", "row_limit", "metric", "filters"},
        .headers = {"if_none_match"}, .answers = {{kJson, "ResultRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
        .bodiless = {304},
-       .problems = {404, 422}},
+       .problems = {404, 422},
+       .work = Work::kLarge},
       {.method = "GET", .pattern = "/v1/sweeps/{id}/trajectories", .handler = get_trajectories,
        .operation_id = "getTrajectories", .tag = "sweeps",
        .summary = "File of the results and of all trajectories of a sweep: HDF5, MAT or NPZ",
        .query = {"channels", "from", "to", "export_format"},
        .headers = {"if_none_match", "range", "if_range"},
        .answers = {{kHdf5, "Binary"}, {kMat, "Binary"}, {kNpz, "Binary"}}, .bodiless = {304},
-       .partial = true, .problems = {404, 409, 416, 422, 507}},
+       .partial = true, .problems = {404, 409, 416, 422, 507}, .work = Work::kLarge},
       {.method = "GET", .pattern = "/v1/sweeps/{id}/events", .handler = get_events,
        .operation_id = "followSweep", .tag = "sweeps",
        .summary = "Server-sent events: job, progress and, at the end, done. 204: all events have been sent, "
@@ -104,14 +105,14 @@ std::vector<Route> make_study_routes(const StudyWords& words) {
        .answers = {{kJson, words.schema + "Page"}}, .problems = {422}},
       {.method = "GET", .pattern = one, .handler = Routes::get, .operation_id = "get" + words.noun,
        .tag = words.tag, .summary = words.get, .headers = {"prefer", "if_none_match"},
-       .answers = {{kJson, words.schema}}, .bodiless = {304}, .problems = {404, 422}},
+       .answers = {{kJson, words.schema}}, .bodiless = {304}, .problems = {404, 422}, .work = Work::kLarge},
       {.method = "DELETE", .pattern = one, .handler = Routes::erase, .operation_id = "delete" + words.noun,
        .tag = words.tag, .summary = words.erase, .success = 204, .problems = {404, 409, 422}},
       {.method = "GET", .pattern = one + "/results", .handler = Routes::get_results,
        .operation_id = words.rows_id, .tag = words.tag, .summary = words.table,
        .query = {"row_format", "fields", "order_by", "row_limit", "columns"}, .headers = {"if_none_match"},
        .answers = {{kJson, words.rows}, {kCsv, "Text"}, {kNdjson, "Text"}}, .bodiless = {304},
-       .problems = {404, 422}},
+       .problems = {404, 422}, .work = Work::kLarge},
       {.method = "GET", .pattern = one + "/events", .handler = Routes::get_events,
        .operation_id = "follow" + words.noun, .tag = words.tag,
        .summary = "Server-sent events: job, progress and, at the end, done. 204: all events have been sent, "
@@ -185,7 +186,7 @@ std::vector<Route> make_fit_routes() {
                     .query = {"row_format", "fields", "order_by", "row_limit", "columns"},
                     .headers = {"if_none_match"},
                     .answers = {{kJson, "FitSignalRows"}, {kCsv, "Text"}, {kNdjson, "Text"}},
-                    .bodiless = {304}, .problems = {404, 422}});
+                    .bodiless = {304}, .problems = {404, 422}, .work = Work::kLarge});
   return routes;
 }
 
@@ -196,6 +197,7 @@ Route with_rows(Route route, const char* schema) {
   route.answers = {{kJson, schema}, {kCsv, "Text"}, {kNdjson, "Text"}};
   route.bodiless = {304};
   route.problems = {404, 409, 422};
+  route.work = Work::kLarge;
   return route;
 }
 
@@ -206,6 +208,7 @@ Route with_columns(Route route, const char* schema) {
   route.answers = {{kJson, schema}, {kCsv, "Text"}, {kNpz, "Binary"}};
   route.bodiless = {304};
   route.problems = {404, 409, 422};
+  route.work = Work::kLarge;
   return route;
 }
 
@@ -230,7 +233,8 @@ std::vector<Route> make_analysis_routes() {
        .headers = {"if_none_match"},
        .answers = {{kJson, "Surrogate"}},
        .bodiless = {304},
-       .problems = {404, 409, 422}},
+       .problems = {404, 409, 422},
+       .work = Work::kLarge},
       with_rows({.method = "GET",
                  .pattern = "/v1/sweeps/{id}/flexibility",
                  .handler = get_flexibility,
@@ -273,7 +277,8 @@ std::vector<Route> make_analysis_routes() {
        .headers = {"if_none_match"},
        .answers = {{kHtml, "Text"}},
        .bodiless = {304},
-       .problems = {404, 422}},
+       .problems = {404, 422},
+       .work = Work::kLarge},
       with_columns({.method = "GET",
                     .pattern = "/v1/jobs/{id}/spectrum",
                     .handler = get_spectrum,
@@ -326,7 +331,7 @@ std::vector<Route> make_job_routes() {
        .operation_id = "getTrajectory", .tag = "jobs", .summary = "Columns of a job's trajectory",
        .query = {"channels", "from", "to", "points", "column_format"}, .headers = {"if_none_match"},
        .answers = {{kJson, "Trajectory"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304},
-       .problems = {404, 422}},
+       .problems = {404, 422}, .work = Work::kLarge},
   };
 }
 
@@ -352,7 +357,7 @@ std::vector<Route> make_measurement_routes() {
        .summary = "Samples of a run of a measurement, as they were sent",
        .query = {"run", "channels", "from", "to", "points", "column_format"}, .headers = {"if_none_match"},
        .answers = {{kJson, "Columns"}, {kCsv, "Text"}, {kNpz, "Binary"}}, .bodiless = {304},
-       .problems = {404, 422}},
+       .problems = {404, 422}, .work = Work::kLarge},
       {.method = "DELETE", .pattern = "/v1/measurements/{id}", .handler = delete_measurement,
        .operation_id = "deleteMeasurement", .tag = "measurements", .summary = "Delete a measurement",
        .success = 204, .problems = {404, 409, 422}},

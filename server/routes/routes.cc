@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <new>
@@ -18,6 +19,7 @@
 #include "server/messages/error_answer.h"
 #include "server/messages/identifiers.h"
 #include "server/messages/problem.h"
+#include "server/messages/query.h"
 #include "server/messages/safe_log.h"
 #include "server/routes/page_routes.h"
 #include "server/routes/route_table.h"
@@ -63,19 +65,6 @@ bool changes_something(std::string_view method) {
   return method == "POST" || method == "PATCH" || method == "DELETE";
 }
 
-/// @returns whether a request may take much memory or time: tables and analyses of a sweep, and large bodies
-bool is_heavy(const Route& route, const Request& request) {
-  constexpr std::size_t kLargeBody = 64 * 1024;
-  if (changes_something(route.method)) return request.body.size() > kLargeBody;
-  return route.pattern.find("{id}/") != std::string_view::npos && !route.pattern.ends_with("/events");
-}
-
-/// Permit of what needs none.
-std::shared_ptr<const void> idle_permit() {
-  static constexpr char kNone = 0;
-  return {std::shared_ptr<const void>(), &kNone};
-}
-
 /// The route that answers GET with what a route changes: at the same path, or without the action at its end.
 const Route* find_changed(const Route& route) {
   const auto is_read_at = [](std::string_view pattern) {
@@ -119,6 +108,13 @@ Response answer_unknown_path(const Request& request, const std::string& method) 
 }
 
 }  // namespace
+
+bool is_heavy(const Route& route, const Request& request) {
+  constexpr std::size_t kLargeBody = 64 * 1024;
+  constexpr std::size_t kLargePage = 1000;
+  return route.work == Work::kLarge || request.body.size() > kLargeBody ||
+         Query(request, {}, Query::Others::kKept).count("limit").value_or(0) > kLargePage;
+}
 
 Routes::Routes(jobs::Service& service, std::shared_ptr<Metrics> metrics)
     : service_(service), metrics_(std::move(metrics)) {
@@ -169,11 +165,11 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
 Response Routes::run_route(const Route& route, const Request& request, std::string id) const {
   if (draining_ && changes_something(route.method))
     return make_retry_later(503, "the service is shutting down");
-  const auto permit = is_heavy(route, request) ? heavy_limit_.acquire() : idle_permit();
-  if (!permit) return make_retry_later(503, "as many large requests wait as may; try again");
+  WorkPermit permit(is_heavy(route, request) ? &heavy_limit_ : nullptr);
+  if (!permit.acquire()) return make_retry_later(503, WorkPermit::kRefusal);
   const auto answer_by = [&](const Route& one, const Request& asked) {
     return one.handler({service_, asked, id, draining_, *metrics_, long_poll_limit_, store_copy_limit_,
-                        stream_limit_, export_limit_});
+                        stream_limit_, export_limit_, permit});
   };
   if (!changes_existing(route)) return answer_by(route, request);
   if (request.if_match.empty()) {

@@ -18,6 +18,10 @@ namespace server {
 
 struct Route;
 
+/// @returns whether a request may take much memory or time: a table or an analysis, a study, a large body or
+/// a large page of a listing
+[[nodiscard]] bool is_heavy(const Route& route, const Request& request);
+
 /// Answers requests: finds the route, calls its handler, and turns exceptions into answers. Thread-safe.
 class Routes {
  public:

@@ -2,15 +2,19 @@
 #include "server/routes/routes.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "jobs/base/program_info.h"
+#include "server/context/route.h"
 #include "server/messages/identifiers.h"
+#include "server/routes/route_table.h"
 #include "tests/server/service_fixture.h"
 
 namespace {
@@ -101,6 +105,28 @@ TEST(Routes, TakeNothingNewWhileDraining) {
   }
   EXPECT_EQ(bench.call("GET", "/v1/sweeps/" + id).status, 200);
   EXPECT_EQ(bench.call("GET", "/healthz").status, 200);
+}
+
+TEST(Routes, ComputeLargeAnswersAFewAtATime) {
+  std::string light;
+  for (const server::Route& route : server::route_table())
+    if (route.method == "GET" && !server::is_heavy(route, {})) light += route.pattern + " ";
+  EXPECT_EQ(light,
+            "/v1/sweeps /v1/sweeps/{id} /v1/sweeps/{id}/events /v1/searches /v1/searches/{id}/events "
+            "/v1/wear-studies /v1/wear-studies/{id}/events /v1/optimisations /v1/optimisations/{id}/events "
+            "/v1/fits /v1/fits/{id}/events /v1/jobs /v1/jobs/{id} /v1/measurements /v1/measurements/{id} "
+            "/v1/parameters /v1/executors /v1/openapi.json /docs /docs/docs.js /docs/swagger-ui-bundle.js "
+            "/docs/swagger-ui.css /v1/store /metrics /healthz /readyz / ");
+  for (const auto& [limit, heavy] : {std::pair{"1000", false}, {"1001", true}, {"10000", true}, {"x", false}}) {
+    server::Request page{};
+    page.query = {{"limit", limit}};
+    EXPECT_EQ(server::is_heavy(server::Route{}, page), heavy) << limit;
+  }
+  for (const std::size_t bytes : {65'536U, 65'537U}) {
+    server::Request submission{};
+    submission.body = std::string(bytes, ' ');
+    EXPECT_EQ(server::is_heavy(server::Route{}, submission), bytes > 65'536U) << bytes;
+  }
 }
 
 // Requests let in before the service begins to end, and handled after its end.

@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -286,6 +287,26 @@ TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
         std::runtime_error);
   }
   EXPECT_TRUE(room.wait(request, response, [](std::chrono::seconds) {}));
+}
+
+TEST(Prefer, HoldsNoPermitForLargeWork) {
+  Bench bench(endless_run);
+  const std::string id = bench.submit(kContractSweep);
+  server::Request large{.method = "POST",
+                        .path = "/v1/sweeps",
+                        .query = {},
+                        .accept = {},
+                        .body = kContractSweep + std::string(100'000, ' '),
+                        .id = "test-1"};
+  large.prefer = "wait=60";
+  std::vector<std::jthread> waiting;
+  for (int k = 0; k < 3; ++k)
+    waiting.emplace_back([&] { EXPECT_EQ(bench.routes().answer(large).status, 201); });
+  std::this_thread::sleep_for(500ms);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(bench.call("GET", "/v1/sweeps/" + id + "/results").status, 200);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);
+  bench.service().stop();  // ends all waiting
 }
 
 TEST(GetResults, TakesFieldsFiltersAndOrder) {
