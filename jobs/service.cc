@@ -2,6 +2,7 @@
 #include "jobs/service.h"
 
 #include <algorithm>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -446,7 +447,11 @@ SweepRow Service::with_parts_done(SweepRow row) const {
     }
   };
   fill_in(row.costs);
-  for (RivalSweep& rival : row.rivals) fill_in(rival.costs);
+  for (auto& rival : row.rivals) {
+    auto filled = std::make_shared<RivalSweep>(*rival);
+    fill_in(filled->costs);
+    rival = std::move(filled);
+  }
   return row;
 }
 

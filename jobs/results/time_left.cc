@@ -107,11 +107,11 @@ std::optional<Work> calc_work_with_rivals(const SweepRow& row, std::string_view 
   const auto executor = [&](const std::string& name) { return name.empty() ? default_executor : name; };
   auto work = calc_work(row.costs, 1.0, row.unit_s, row.cost_rates);
   if (!work) return std::nullopt;
-  for (const RivalSweep& rival : row.rivals) {
-    if (count_queued(row.costs) == 0.0 || executor(rival.executor) != executor(row.executor)) continue;
-    const auto before = calc_work(rival.costs, part_before(row, rival), rival.unit_s, row.cost_rates);
+  for (const auto& rival : row.rivals) {
+    if (count_queued(row.costs) == 0.0 || executor(rival->executor) != executor(row.executor)) continue;
+    const auto before = calc_work(rival->costs, part_before(row, *rival), rival->unit_s, row.cost_rates);
     if (!before) return std::nullopt;
-    work->add(*before, rival.weight);
+    work->add(*before, rival->weight);
   }
   return work;
 }

@@ -195,8 +195,9 @@ ActiveSweepSample read_sample(const SQLite::Database& database, const std::vecto
   ActiveSweepSample read;
   bool is_incomplete = all.size() > kMostActiveSweeps;  // a sweep that is not in the sample may have none
   for (const ListedSweep& sweep : sample_of(all)) {
-    const auto added = read.sweeps.emplace(sweep.seq, read_rival(database, sweep));
-    is_incomplete = is_incomplete || misses_rate(added.first->second.costs);
+    const auto rival = std::make_shared<const RivalSweep>(read_rival(database, sweep));
+    read.sweeps.emplace(sweep.seq, rival);
+    is_incomplete = is_incomplete || misses_rate(rival->costs);
   }
   if (is_incomplete) read.cost_rates = read_cost_rates(database);
   return read;
@@ -224,8 +225,8 @@ void ActiveSweeps::read_what_is_left(std::int64_t seq, SweepRow& row) {
   const std::string time = simulated_time(row.swept);
   row.costs = read_costs(database_, seq, time);
   row.unit_s = read_unit(database_, seq, time);
-  for (const auto& [rival, costs] : sample_->sweeps)
-    if (rival != seq) row.rivals.push_back(costs);
+  for (const auto& [number, rival] : sample_->sweeps)
+    if (number != seq) row.rivals.push_back(rival);
   row.cost_rates = sample_->cost_rates;
 }
 

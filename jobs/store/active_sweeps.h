@@ -21,8 +21,8 @@ inline constexpr std::size_t kMostActiveSweeps = 128;
 
 /// Sweeps that have not ended, with what is left of them.
 struct ActiveSweepSample {
-  std::map<std::int64_t, RivalSweep> sweeps;    ///< by number
-  std::map<std::string, double> cost_rates;     ///< SweepRow::cost_rates
+  std::map<std::int64_t, std::shared_ptr<const RivalSweep>> sweeps;  ///< by number
+  std::map<std::string, double> cost_rates;                          ///< SweepRow::cost_rates
 };
 
 /// Keeps a sample for a second; where all sweeps are read, they are read anew each time.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,7 +76,8 @@ struct SweepRow {
   // The rest only of sweeps that have not ended:
   Costs costs;
   double unit_s = 1.0;                               ///< as RivalSweep's
-  std::vector<RivalSweep> rivals;                    ///< others that have not ended, or a sample
+  /// Others that have not ended, or a sample; the rows of a listing share them
+  std::vector<std::shared_ptr<const RivalSweep>> rivals;
   /// Wall time a simulated second by kind, of the store's last results; empty if nothing needs it
   std::map<std::string, double> cost_rates;
 };

@@ -2,6 +2,8 @@
 #include "jobs/results/time_left.h"
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +82,12 @@ TEST(TimeLeft, IsNotLessThanWhatARunningJobIsLate) {
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 2)->expected_s, 30.0) << "5 s were expected, 35 s have passed";
 }
 
+std::vector<std::shared_ptr<const jobs::RivalSweep>> shared(const std::vector<jobs::RivalSweep>& rivals) {
+  std::vector<std::shared_ptr<const jobs::RivalSweep>> pointers;
+  for (const jobs::RivalSweep& rival : rivals) pointers.push_back(std::make_shared<jobs::RivalSweep>(rival));
+  return pointers;
+}
+
 /// Jobs that wait, of which five others have cost so much each.
 jobs::Costs waiting(std::int64_t count, double each_s) {
   const auto n = static_cast<double>(count);
@@ -97,13 +105,17 @@ TEST(TimeLeft, CountsTheSweepsThatComeBefore) {
   row.counts = {10, 0, 5, 0, 0};
   row.costs = waiting(10, 3.0);
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1)->expected_s, 30.0);
-  row.rivals = {{.priority = 2, .costs = waiting(5, 10.0)}, {.priority = 1, .costs = waiting(40, 2.0)},
-                {.priority = 1, .costs = waiting(4, 2.0)}, {.priority = 0, .costs = waiting(100, 6.0)}};
-  row.rivals[3].costs["rigid"].running = {{.elapsed_s = 4.0}};
+  std::vector<jobs::RivalSweep> rivals{{.priority = 2, .costs = waiting(5, 10.0)},
+                                       {.priority = 1, .costs = waiting(40, 2.0)},
+                                       {.priority = 1, .costs = waiting(4, 2.0)},
+                                       {.priority = 0, .costs = waiting(100, 6.0)}};
+  rivals[3].costs["rigid"].running = {{.elapsed_s = 4.0}};
+  row.rivals = shared(rivals);
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1)->expected_s, 30.0 + 50.0 + 20.0 + 8.0 + 2.0);
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 4)->expected_s, 110.0 / 4.0);
-  row.rivals[0].executor = "slurm";
-  row.rivals[1].executor = "local";
+  rivals[0].executor = "slurm";
+  rivals[1].executor = "local";
+  row.rivals = shared(rivals);
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1, "local")->expected_s, 60.0)
       << "a cluster takes no thread";
   auto& own = row.costs["rigid"];
@@ -117,9 +129,9 @@ TEST(TimeLeft, CountsARivalThatStandsForOthersAsAllOfThem) {
   jobs::SweepRow row;
   row.counts = {10, 0, 5, 0, 0};
   row.costs = waiting(10, 3.0);
-  row.rivals = {30, {.costs = waiting(4, 2.0)}};
+  row.rivals = shared({30, {.costs = waiting(4, 2.0)}});
   const auto each = jobs::estimate_time_left(row, 2).value();
-  row.rivals = {3, {.costs = waiting(4, 2.0), .weight = 10.0}};
+  row.rivals = shared({3, {.costs = waiting(4, 2.0), .weight = 10.0}});
   const auto sample = jobs::estimate_time_left(row, 2).value();
   EXPECT_DOUBLE_EQ(sample.expected_s, each.expected_s);
   EXPECT_DOUBLE_EQ(sample.high_s, each.high_s);
@@ -135,7 +147,7 @@ TEST(TimeLeft, TakesTheUsualCostOfAKindBeforeItIsKnown) {
   row.cost_rates["rigid"] = 0.5;
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1)->expected_s, 2.0 * 4.0 * 0.5);
   EXPECT_EQ(jobs::estimate_time_left(row, 1)->low_s, 0.0) << "it is hardly known";
-  row.rivals = {{.unit_s = 10.0, .costs = row.costs}};
+  row.rivals = shared({{.unit_s = 10.0, .costs = row.costs}});
   EXPECT_DOUBLE_EQ(jobs::estimate_time_left(row, 1)->expected_s, 4.0 + 10.0);
 }
 

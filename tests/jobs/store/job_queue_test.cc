@@ -239,7 +239,7 @@ TEST(Store, SamplesManySweepsOfEachPriority) {
   const jobs::SweepRow row = store.reader.find_sweep(last).value();
   EXPECT_LE(row.rivals.size(), 128U);
   std::map<std::int64_t, double> of_priority;
-  for (const jobs::RivalSweep& rival : row.rivals) of_priority[rival.priority] += rival.weight;
+  for (const auto& rival : row.rivals) of_priority[rival->priority] += rival->weight;
   EXPECT_EQ(of_priority[7], 1.0);
   EXPECT_EQ(of_priority[5], 3.0);
   EXPECT_NEAR(of_priority[0], 500.0, 13.0);  // less one of the sample, if the sweep itself is in it

@@ -254,16 +254,32 @@ TEST(Store, FindsTheSweepsThatShareTheThreads) {
     EXPECT_EQ(row.id, second);
     EXPECT_EQ(row.unit_s, 1.0);
     ASSERT_EQ(row.rivals.size(), 1U);
-    EXPECT_EQ(row.rivals[0].priority, 3);
-    EXPECT_EQ(row.rivals[0].unit_s, 7.0);
-    EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").queued, 1);
-    EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").running.size(), 1U);
+    EXPECT_EQ(row.rivals[0]->priority, 3);
+    EXPECT_EQ(row.rivals[0]->unit_s, 7.0);
+    EXPECT_EQ(row.rivals[0]->costs.at("rigid, clearance").queued, 1);
+    EXPECT_EQ(row.rivals[0]->costs.at("rigid, clearance").running.size(), 1U);
     EXPECT_EQ(row.cost_rates.at("rigid, clearance"), 0.5) << "2 s for 4 s of the ended sweep";
   }
   const auto row = store.reader.find_sweep(first).value();
   EXPECT_EQ(row.unit_s, 7.0);
   ASSERT_EQ(row.rivals.size(), 1U);
-  EXPECT_EQ(row.rivals[0].costs.at("rigid, clearance").queued_s, 6.0);
+  EXPECT_EQ(row.rivals[0]->costs.at("rigid, clearance").queued_s, 6.0);
+}
+
+TEST(Store, SharesTheRivalsOfTheSweepsOfAListing) {
+  const TemporaryStore temporary;
+  jobs::Store store(temporary.file());
+  for (const char* const request :
+       {R"({"sweep": {"clearance_mm": [0.1]}})", R"({"sweep": {"clearance_mm": [0.2]}})",
+        R"({"sweep": {"clearance_mm": [0.3]}})"})
+    add_sweep(store, request);
+  const auto rows = store.reader.list_sweeps("", "", 3);
+  ASSERT_EQ(rows.size(), 3U);
+  for (const jobs::SweepRow& row : rows) ASSERT_EQ(row.rivals.size(), 2U);
+  // In their order: the newest has the first and the second, the second the first and the newest.
+  EXPECT_EQ(rows[0].rivals[0], rows[1].rivals[0]);
+  EXPECT_EQ(rows[0].rivals[1], rows[2].rivals[0]);
+  EXPECT_EQ(rows[1].rivals[1], rows[2].rivals[1]);
 }
 
 // A run takes 2 s on the wall here, whatever it simulates.
