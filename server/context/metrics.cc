@@ -148,8 +148,13 @@ void Metrics::add_run(const jobs::JobSpec& spec, const jobs::RunRecord& run) noe
   }
 }
 
-void Metrics::add_request(const std::string& method, std::string_view route, int status, double seconds) {
-  impl_->add_request(method, route, status, seconds);
+void Metrics::add_request(const std::string& method, std::string_view route, int status,
+                          double seconds) noexcept {
+  try {
+    impl_->add_request(method, route, status, seconds);
+  } catch (const std::bad_alloc&) {  // the request has taken effect, and is answered
+    log_error("a request is missing in the metrics: no memory");
+  }
 }
 
 std::string Metrics::text(const jobs::QueueStats& load, const nlohmann::json& executors) const {

@@ -26,7 +26,7 @@ class Metrics {
 
   /// Counts a request that has been answered.
   /// @param route  pattern of the path, so that there are not as many as ids; empty: no route
-  void add_request(const std::string& method, std::string_view route, int status, double seconds);
+  void add_request(const std::string& method, std::string_view route, int status, double seconds) noexcept;
 
   /// Everything, with the load as it is now. @param executors  Service::list_executors()
   [[nodiscard]] std::string text(const jobs::QueueStats& load, const nlohmann::json& executors = {

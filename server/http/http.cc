@@ -10,6 +10,8 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -162,8 +164,10 @@ class HttpServer::Impl {
         routes_(routes),
         origin_check_(options.address, options.cors_origins, options.names),
         access_check_(options.token),
-        guard(http_limits,
-              [this](int status, const std::string& detail) { return make_refusal(status, detail); }) {
+        guard(
+            http_limits,
+            [this](int status, const std::string& detail) { return make_refusal(status, detail); },
+            [this](Response& refusal, std::string_view head) { complete_refusal(refusal, head); }) {
     set_route_handlers();
     set_answer_handlers();
   }
@@ -197,8 +201,12 @@ class HttpServer::Impl {
         });
     guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       tidy_headers(request, response);
-      if (!response.has_header("X-Request-Id")) response.set_header("X-Request-Id", request_ids_.next());
-      add_cors_headers(request, response);
+      if (!response.has_header("X-Request-Id")) {  // it was refused before it came to a route
+        response.set_header("X-Request-Id", request_ids_.next());
+        routes_.count_unrouted(request.method, response.status);
+      }
+      for (const auto& [name, value] : cors_headers(request.get_header_value("Origin")))
+        response.set_header(name, value);
     });
   }
 
@@ -207,6 +215,12 @@ class HttpServer::Impl {
     response.headers.emplace_back("X-Request-Id", request_ids_.next());
     for (const auto& [name, value] : kSecurityHeaders) response.headers.emplace_back(name, value);
     return response;
+  }
+
+  void complete_refusal(Response& refusal, std::string_view head) const {
+    for (auto& header : cors_headers(raw_header_of(head, "origin")))
+      refusal.headers.push_back(std::move(header));
+    routes_.count_unrouted(std::string(head.substr(0, head.find(' '))), refusal.status);
   }
 
   /// The library ends some requests itself, with a status and no body.
@@ -222,16 +236,15 @@ class HttpServer::Impl {
     if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
   }
 
-  /// Lets the page of another site read the answer, if it is one that may.
-  void add_cors_headers(const httplib::Request& request, httplib::Response& response) const {
-    if (options.cors_origins.empty()) return;
-    response.set_header("Vary", "Origin");
-    const std::string origin = request.get_header_value("Origin");
-    if (!origin_check_.is_allowed(origin)) return;
-    response.set_header("Access-Control-Allow-Origin", origin);
-    response.set_header("Access-Control-Expose-Headers",
-                        "Accept-Ranges, Content-Disposition, Content-Range, ETag, Location, "
-                        "Preference-Applied, Retry-After, X-Request-Id");
+  /// Headers that let the page of another site read the answer, if it is one that may.
+  std::vector<std::pair<std::string, std::string>> cors_headers(const std::string& origin) const {
+    if (options.cors_origins.empty()) return {};
+    if (!origin_check_.is_allowed(origin)) return {{"Vary", "Origin"}};
+    return {{"Vary", "Origin"},
+            {"Access-Control-Allow-Origin", origin},
+            {"Access-Control-Expose-Headers",
+             "Accept-Ranges, Content-Disposition, Content-Range, ETag, Location, Preference-Applied, "
+             "Retry-After, X-Request-Id"}};
   }
 
   /// @returns whether a browser asks on behalf of such a page, before it sends the request itself
@@ -349,6 +362,7 @@ class HttpServer::Impl {
   void answer(const httplib::Request& from, std::string body, httplib::Response& to) {
     const auto start = std::chrono::steady_clock::now();
     const Request request = make_request(from, std::move(body));
+    to.set_header("X-Request-Id", request.id);
     // Without the slash a browser would take the addresses of the page for those beside it.
     const bool slash_is_missing = !options.base_path.empty() && from.path == options.base_path;
     Response response = slash_is_missing ? make_redirect(from.path.substr(from.path.rfind('/') + 1) + "/")
@@ -357,7 +371,6 @@ class HttpServer::Impl {
       response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
     copy_to(to, std::move(response), from.version);
-    to.set_header("X-Request-Id", request.id);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, request.path, to.status,
                   took.count());

@@ -81,10 +81,11 @@ bool may_be_probe(std::string_view head) {
 
 }  // namespace
 
-GuardedServer::GuardedServer(const HttpLimits& limits,
-                             std::function<Response(int, const std::string&)> make_refusal)
+GuardedServer::GuardedServer(const HttpLimits& limits, MakeRefusal make_refusal,
+                             CompleteRefusal complete_refusal)
     : limits_(limits),
       make_refusal_(std::move(make_refusal)),
+      complete_refusal_(std::move(complete_refusal)),
       busy_(make_refusal_(503, "as many requests as may wait are waiting; try again")),
       no_memory_answer_(
           text_of(make_refusal_(503, "the machine has no memory left for this request; try again"))),
@@ -96,8 +97,7 @@ GuardedServer::GuardedServer(const HttpLimits& limits,
            .drain_time = limits.drain_time},
           [this](PendingConnection connection) { queue_connection(std::move(connection)); },
           [this](const std::string& received) {
-            return refusal_text(408, "the head of the request did not come in time",
-                                received.starts_with("HEAD "));
+            return refusal_text(make_refusal_(408, "the head of the request did not come in time"), received);
           }),
       pool_(kThreads, limits.max_queued,
             [this](PendingConnection connection) {
@@ -161,7 +161,7 @@ std::optional<PendingConnection> GuardedServer::add_to_queue(PendingConnection& 
 
 void GuardedServer::refuse_without_worker(PendingConnection connection, const Response& refusal) noexcept {
   try {
-    const std::string answer = connection.received.starts_with("HEAD ") ? head_of(refusal) : text_of(refusal);
+    const std::string answer = refusal_text(refusal, connection.received);
     static_cast<void>(::send(connection.socket, answer.data(), answer.size(), MSG_DONTWAIT | MSG_NOSIGNAL));
   } catch (const std::bad_alloc&) {  // closed without an answer
   }
@@ -265,12 +265,12 @@ void GuardedServer::process_with_library(Self& self, HttpStream& stream, const F
 }
 
 void GuardedServer::refuse(HttpStream& stream, int status, const std::string& detail) {
-  stream.send_all(refusal_text(status, detail, stream.asks_for_head()));
+  stream.send_all(refusal_text(make_refusal_(status, detail), stream.received()));
 }
 
-std::string GuardedServer::refusal_text(int status, const std::string& detail, bool head_alone) const {
-  const Response refusal = make_refusal_(status, detail);
-  return head_alone ? head_of(refusal) : text_of(refusal);
+std::string GuardedServer::refusal_text(Response refusal, std::string_view head) const {
+  complete_refusal_(refusal, head);
+  return head.starts_with("HEAD ") ? head_of(refusal) : text_of(refusal);
 }
 
 }  // namespace server

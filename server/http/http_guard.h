@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/http/connection_acceptor.h"
 #include "server/http/event_hub.h"
@@ -29,10 +30,14 @@ inline constexpr const char* kRange = "Range of the client";
 /// HttpLimits, and is closed.
 class GuardedServer final : public httplib::Server {
  public:
-  /// @param limits        of every connection
-  /// @param make_refusal  turns a status and a sentence into the answer to a request whose head is not served
-  GuardedServer(const HttpLimits& limits,
-                std::function<Response(int status, const std::string& detail)> make_refusal);
+  /// Turns a status and a sentence into the answer to a request whose head is not served.
+  using MakeRefusal = std::function<Response(int status, const std::string& detail)>;
+  /// Completes such an answer for the one who asks, and notes that it is sent.
+  /// @param head  of the request; it may be faulty or not whole
+  using CompleteRefusal = std::function<void(Response& refusal, std::string_view head)>;
+
+  /// @param limits  of every connection
+  GuardedServer(const HttpLimits& limits, MakeRefusal make_refusal, CompleteRefusal complete_refusal);
 
   ~GuardedServer() override;
 
@@ -82,10 +87,12 @@ class GuardedServer final : public httplib::Server {
   template <typename Self, typename Fill>
   static void process_with_library(Self& self, HttpStream& stream, const Fill& fill_request);
   void refuse(HttpStream& stream, int status, const std::string& detail);
-  [[nodiscard]] std::string refusal_text(int status, const std::string& detail, bool head_alone) const;
+  /// @param head  see CompleteRefusal
+  [[nodiscard]] std::string refusal_text(Response refusal, std::string_view head) const;
 
   HttpLimits limits_;
-  std::function<Response(int, const std::string&)> make_refusal_;
+  MakeRefusal make_refusal_;
+  CompleteRefusal complete_refusal_;
   // Made in advance, while there is memory and time.
   const Response busy_;
   const std::string no_memory_answer_;

@@ -28,8 +28,8 @@ class HttpStream final : public httplib::Stream {
 
   /// Reads up to the empty line that ends the head; what follows it is kept for read().
   Head read_head();
-  /// @returns whether the request, as far as it has come, asks for an answer without its body
-  [[nodiscard]] bool asks_for_head() const { return buffer_.starts_with("HEAD "); }
+  /// The request as far as it has come.
+  [[nodiscard]] std::string_view received() const { return buffer_; }
   [[nodiscard]] std::string_view head() const { return std::string_view(buffer_).substr(0, head_size_); }
 
   /// Replaces the head that was read. Not after read().

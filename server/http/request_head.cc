@@ -227,6 +227,18 @@ std::string_view raw_path_of(std::string_view head) {
   return target.substr(0, target.find_first_of(" ?#"));
 }
 
+std::string raw_header_of(std::string_view head, std::string_view name) {
+  while (!head.empty()) {
+    const std::string_view line = head.substr(0, head.find("\r\n"));
+    if (line.empty()) break;
+    head.remove_prefix(std::min(line.size() + 2, head.size()));
+    const auto colon = line.find(':');
+    if (colon != std::string_view::npos && lower(line.substr(0, colon)) == name)
+      return std::string(trimmed(line.substr(colon + 1)));
+  }
+  return "";
+}
+
 std::optional<Refusal> find_fault_in_head(std::string_view head, std::size_t body_bytes) {
   Framing framing;
   bool first = true;

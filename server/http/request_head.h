@@ -24,6 +24,10 @@ inline constexpr std::size_t kMaxLineBytes = 8000;
 /// Path of a request line, not decoded: for a limit that depends on the path. Empty if there is none.
 [[nodiscard]] std::string_view raw_path_of(std::string_view head);
 
+/// Value of a header in a head that may be faulty or not whole; empty if it is missing.
+/// @param name  in lower case
+[[nodiscard]] std::string raw_header_of(std::string_view head, std::string_view name);
+
 /// Examines the head of a request as it came off the wire, before anything else reads it: two readers that
 /// understand a head differently are how one request is smuggled inside another.
 /// @param head        request line and header lines, up to and with the empty line

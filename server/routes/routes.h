@@ -32,6 +32,11 @@ class Routes {
   /// @throws std::bad_alloc only, if there is no memory even for that
   [[nodiscard]] Response answer(const Request& request) const;
 
+  /// Counts a request that was answered before it came to a route.
+  void count_unrouted(const std::string& method, int status) const noexcept {
+    metrics_->add_request(method, "", status, 0.0);
+  }
+
   /// From now on nothing new is taken: whatever would change something is answered with 503, and /readyz too.
   void start_draining() { draining_ = true; }
 

@@ -95,9 +95,10 @@ class Target {
     }
   }
 
-  server::GuardedServer guard_{short_limits(), [](int status, const std::string& detail) {
-                                 return server::make_problem(status, detail);
-                               }};
+  server::GuardedServer guard_{
+      short_limits(),
+      [](int status, const std::string& detail) { return server::make_problem(status, detail); },
+      [](server::Response&, std::string_view) {}};
   int port_ = 0;
 };
 

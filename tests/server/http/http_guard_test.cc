@@ -116,6 +116,14 @@ TEST(HttpCors, LetsTheSitesOnTheListIn) {
   // A page may read what it did wrong, too.
   EXPECT_NE(ask("GET /v1/nothing", good).find("Access-Control-Allow-Origin: https://lab.example.org\r\n"),
             std::string::npos);
+  // So it may where nothing but the head was looked at.
+  const std::string too_long = "GET /" + std::string(600, 'a');
+  const std::string refused_early = ask(too_long, good);
+  EXPECT_EQ(status_of(refused_early), 414);
+  EXPECT_NE(refused_early.find("Access-Control-Allow-Origin: https://lab.example.org\r\n"),
+            std::string::npos);
+  EXPECT_NE(refused_early.find("Vary: Origin\r\n"), std::string::npos);
+  EXPECT_EQ(ask(too_long, "https://evil.com").find("Access-Control-"), std::string::npos);
   for (const char* const bad : {"https://evil.com", "null"}) {
     const std::string refused = ask("GET /v1/sweeps", bad);
     EXPECT_EQ(status_of(refused), 403) << bad;

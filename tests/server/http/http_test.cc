@@ -82,6 +82,27 @@ TEST_F(Http, RefusesAHeadThatIsTooLarge) {
   EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(7'900, 'a') + "\r\n")), 200);
 }
 
+TEST_F(Http, CountsARequestOnceWhoeverAnswersIt) {
+  EXPECT_EQ(status_of(get("/healthz")), 200);
+  EXPECT_EQ(status_of(get("/nothing")), 404);
+  EXPECT_EQ(status_of(get("/healthz", "X: " + std::string(20'000, 'a') + "\r\n")), 431);
+  EXPECT_EQ(status_of(ask("POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100001\r\n\r\n")),
+            413);
+  EXPECT_EQ(status_of(ask("HEAD / HTTP/1.1\r\nHost: evil.com\r\n\r\n")), 403);
+  EXPECT_EQ(status_of(post("/v1/sweeps", "{}", "Content-Encoding: br\r\n")), 415);
+  EXPECT_EQ(status_of(ask("GET / HTTP/1.1\r\nHost: localhost\r\n")), 408);
+  const std::string text = body_of(get("/metrics"));
+  for (const char* const labels :
+       {R"(method="GET",route="/healthz",status="200")", R"(method="GET",route="none",status="404")",
+        R"(method="GET",route="none",status="431")", R"(method="POST",route="none",status="413")",
+        R"(method="HEAD",route="none",status="403")", R"(method="POST",route="none",status="415")",
+        R"(method="GET",route="none",status="408")"}) {
+    EXPECT_NE(text.find("rpsup_http_request_duration_seconds_count{" + std::string(labels) + "} 1\n"),
+              std::string::npos)
+        << labels << text;
+  }
+}
+
 TEST_F(Http, RefusesHeadWithoutABody) {
   for (const std::string& head :
        {std::string("Idempotency-Key:\r\n\r\n"), "X: " + std::string(20'000, 'a')}) {

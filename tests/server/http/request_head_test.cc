@@ -188,6 +188,16 @@ TEST(ReadHead, TakesHeadersLiterally) {
   EXPECT_EQ(head.headers, expected);
 }
 
+TEST(RawHeader, IsFoundInAnyHead) {
+  EXPECT_EQ(server::raw_header_of("GET /: HTTP/1.1\r\nHost: a\r\nORIGIN:\t https://a \r\n\r\n", "origin"),
+            "https://a");
+  EXPECT_EQ(server::raw_header_of("GET / HTTP/1.1\r\nno name\r\nOrigin: https://a", "origin"), "https://a");
+  for (const char* const head :
+       {"", "\r\n", "GET", "origin", "GET / HTTP/1.1\r\nHost: a\r\n\r\nOrigin: https://a\r\n",
+        "GET / HTTP/1.1\r\nX-Origin: a\r"})
+    EXPECT_EQ(server::raw_header_of(head, "origin"), "") << head;
+}
+
 struct TargetCase {
   std::string name;
   std::string target;
