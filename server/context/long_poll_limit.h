@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 
+#include "server/context/work_limit.h"
 #include "server/messages/message.h"
 
 namespace server {
@@ -13,6 +13,9 @@ namespace server {
 /// holds a thread of the server.
 class LongPollLimit {
  public:
+  /// @param places  has a permit for each request that waits, here or at other limits
+  explicit LongPollLimit(WorkLimit& places) : places_(places) {}
+
   /// Calls wait_for() with the time for which the request prefers to wait, and says in the response that it
   /// did.
   /// @returns false, at once, if the request does not prefer to wait or if too many wait
@@ -20,8 +23,8 @@ class LongPollLimit {
             const std::function<void(std::chrono::seconds)>& wait_for);
 
  private:
-  static constexpr int kMaxWaiting = 8;
-  std::atomic<int> waiting_ = 0;
+  WorkLimit limit_{8, 0};
+  WorkLimit& places_;
 };
 
 }  // namespace server

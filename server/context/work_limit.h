@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 namespace server {
 
@@ -17,26 +18,19 @@ class WorkLimit {
   /// @param at_a_time    permits
   /// @param most_waiting  callers that may wait for one
   /// @param on_idle      called when the last permit is given back; must not throw
-  WorkLimit(std::size_t at_a_time, std::size_t most_waiting, std::function<void()> on_idle = {})
-      : free_(at_a_time), at_a_time_(at_a_time), most_waiting_(most_waiting), on_idle_(std::move(on_idle)) {}
+  /// @param places       has a permit for each that waits, here or at other limits; null: needs none
+  WorkLimit(std::size_t at_a_time, std::size_t most_waiting, std::function<void()> on_idle = {},
+            WorkLimit* places = nullptr)
+      : free_(at_a_time),
+        at_a_time_(at_a_time),
+        most_waiting_(most_waiting),
+        on_idle_(std::move(on_idle)),
+        places_(places) {}
 
   /// Waits for a permit. Not to outlive this.
   /// @returns a permit, which is given back by its destruction; null if too many wait, or one waits for too
   ///     long
-  [[nodiscard]] std::shared_ptr<const void> acquire() {
-    constexpr std::chrono::seconds kPatience{20};
-    std::unique_lock lock(mutex_);
-    if (free_ == 0) {
-      if (waiting_ >= most_waiting_) return nullptr;
-      ++waiting_;
-      const bool is_free = given_back_.wait_for(lock, kPatience, [this] { return free_ > 0; });
-      --waiting_;
-      if (!is_free) return nullptr;
-    }
-    --free_;
-    lock.unlock();
-    return {this, [this](const WorkLimit*) { give_back(); }};
-  }
+  [[nodiscard]] std::shared_ptr<const void> acquire();
 
  private:
   void give_back() {
@@ -56,6 +50,7 @@ class WorkLimit {
   const std::size_t at_a_time_;
   const std::size_t most_waiting_;
   const std::function<void()> on_idle_;
+  WorkLimit* const places_;
 };
 
 /// Permit of one request, which it gives back while it waits for something else.
@@ -77,5 +72,21 @@ class WorkPermit {
   WorkLimit* limit_;
   std::shared_ptr<const void> permit_;
 };
+
+inline std::shared_ptr<const void> WorkLimit::acquire() {
+  constexpr std::chrono::seconds kPatience{20};
+  std::unique_lock lock(mutex_);
+  if (free_ == 0) {
+    WorkPermit place(places_);
+    if (waiting_ >= most_waiting_ || !place.acquire()) return nullptr;
+    ++waiting_;
+    const bool is_free = given_back_.wait_for(lock, kPatience, [this] { return free_ > 0; });
+    --waiting_;
+    if (!is_free) return nullptr;
+  }
+  --free_;
+  lock.unlock();
+  return {this, [this](const WorkLimit*) { give_back(); }};
+}
 
 }  // namespace server

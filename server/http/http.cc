@@ -380,8 +380,8 @@ class HttpServer::Impl {
   OriginCheck origin_check_;
   AccessCheck access_check_;
   RequestIds request_ids_;
-  WorkLimit measurement_bodies_{1, 8};  // of up to 64 MiB
-  WorkLimit large_bodies_{6, 16};       // of up to 8 MiB each, read and served
+  WorkLimit measurement_bodies_{1, 8, {}, &routes_.waiting_places()};  // of up to 64 MiB
+  WorkLimit large_bodies_{6, 16, {}, &routes_.waiting_places()};       // of up to 8 MiB each, read and served
 
  public:
   GuardedServer guard;  // last: its handlers use what stands above

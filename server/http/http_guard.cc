@@ -27,7 +27,8 @@ namespace server {
 
 namespace {
 
-constexpr std::size_t kThreads = 32;  // they wait for clients most of the time
+// They wait for clients most of the time. Some are left when all that may wait for others do (WorkLimit).
+constexpr std::size_t kThreads = 32;
 constexpr std::size_t kProbeThreads = 2;
 constexpr std::size_t kMostProbesQueued = 512;
 constexpr int kBacklog = 511;  // the library's 5 makes clients wait for a second when a few come at once

@@ -40,6 +40,9 @@ class Routes {
   /// From now on nothing new is taken: whatever would change something is answered with 503, and /readyz too.
   void start_draining() { draining_ = true; }
 
+  /// Permits of requests that wait for others, each of which holds a thread of the server.
+  [[nodiscard]] WorkLimit& waiting_places() const { return waiting_places_; }
+
  private:
   /// Gives freed memory back to the system, if there is much of it.
   static void give_memory_back();
@@ -52,10 +55,11 @@ class Routes {
   std::atomic<bool> draining_ = false;
   /// Held during every change of what is there; with If-Match alone, from the look at it on
   mutable std::shared_mutex change_mutex_;
-  mutable LongPollLimit long_poll_limit_;
+  mutable WorkLimit waiting_places_{20, 0};  // of the 32 threads that serve
+  mutable LongPollLimit long_poll_limit_{waiting_places_};
   mutable StoreCopyLimit store_copy_limit_;
   // Each of these may take some 40 MB.
-  mutable WorkLimit heavy_limit_{2, 22, give_memory_back};
+  mutable WorkLimit heavy_limit_{2, 20, give_memory_back, &waiting_places_};
   mutable WorkLimit stream_limit_{4, 0, give_memory_back};
   mutable WorkLimit export_limit_{2, 4, give_memory_back};
 };

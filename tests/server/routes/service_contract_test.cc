@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/context/long_poll_limit.h"
+#include "server/context/work_limit.h"
 #include "server/messages/preference.h"
 #include "tests/server/service_fixture.h"
 
@@ -257,7 +258,8 @@ TEST(Prefer, WaitsNoLongerThanItIsTold) {
 TEST(Prefer, LeavesThreadsToOthers) {
   Bench bench(endless_run);
   const std::string id = bench.submit(kContractSweep);
-  server::LongPollLimit room;
+  server::WorkLimit places(20, 0);
+  server::LongPollLimit room(places);
   server::Request request{};
   request.prefer = "wait=60";
   const auto wait = [&] {
@@ -274,8 +276,21 @@ TEST(Prefer, LeavesThreadsToOthers) {
   bench.service().stop();  // ends all waiting
 }
 
+TEST(Prefer, IsNotAppliedWhereTooManyWaitForOtherThings) {
+  server::WorkLimit places(1, 0);
+  server::LongPollLimit room(places);
+  server::Request request{};
+  request.prefer = "wait=60";
+  server::Response response{};
+  auto place = places.acquire();
+  EXPECT_FALSE(room.wait(request, response, [](std::chrono::seconds) {}));
+  place.reset();
+  EXPECT_TRUE(room.wait(request, response, [](std::chrono::seconds) {}));
+}
+
 TEST(Prefer, FreesThePlaceOfAWaitThatFailed) {
-  server::LongPollLimit room;
+  server::WorkLimit places(20, 0);
+  server::LongPollLimit room(places);
   server::Request request{};
   request.prefer = "wait=60";
   server::Response response{};
