@@ -17,8 +17,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include "jobs/base/time_text.h"
 #include "server/context/work_limit.h"
 #include "server/http/access.h"
+#include "server/http/http_date.h"
 #include "server/http/http_guard.h"
 #include "server/http/request_body.h"
 #include "server/http/request_head.h"
@@ -201,6 +203,7 @@ class HttpServer::Impl {
         });
     guard.set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       tidy_headers(request, response);
+      response.set_header("Date", http_date(jobs::now_unix_ms()));
       if (!response.has_header("X-Request-Id")) {  // it was refused before it came to a route
         response.set_header("X-Request-Id", request_ids_.next());
         routes_.count_unrouted(request.method, response.status);
@@ -218,6 +221,7 @@ class HttpServer::Impl {
   }
 
   void complete_refusal(Response& refusal, std::string_view head) const {
+    refusal.headers.emplace_back("Date", http_date(jobs::now_unix_ms()));
     for (auto& header : cors_headers(raw_header_of(head, "origin")))
       refusal.headers.push_back(std::move(header));
     routes_.count_unrouted(std::string(head.substr(0, head.find(' '))), refusal.status);

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <iterator>
+#include <regex>
 #include <string>
 #include <thread>
 
@@ -11,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http/http.h"
+#include "server/http/http_date.h"
 #include "server/messages/gzip.h"
 #include "tests/server/http/http_fixture.h"
 #include "tests/server/http/raw_client.h"
@@ -50,6 +53,18 @@ TEST_F(Http, SendsTheHeadersThatBrowsersObey) {
     EXPECT_NE(answer.find("X-Content-Type-Options: nosniff\r\n"), std::string::npos) << answer;
     EXPECT_NE(answer.find("Content-Security-Policy: default-src 'none';"), std::string::npos) << answer;
     EXPECT_NE(answer.find("Referrer-Policy: no-referrer\r\n"), std::string::npos) << answer;
+  }
+}
+
+TEST_F(Http, DatesEveryAnswer) {
+  EXPECT_EQ(server::http_date(784'111'777'999), "Sun, 06 Nov 1994 08:49:37 GMT");
+  EXPECT_EQ(server::http_date(951'782'400'000), "Tue, 29 Feb 2000 00:00:00 GMT");
+  const std::regex date("\r\nDate: [A-Z][a-z]{2}, [0-9]{2} [A-Z][a-z]{2} [0-9]{4} [0-9:]{8} GMT\r\n");
+  for (const std::string& answer :
+       {get("/healthz"), get("/nothing"), get("/", "If-None-Match: *\r\n"), get("/" + std::string(600, 'a')),
+        ask("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\n"), ask("GET / HTTP/1.1\r\nHost: localhost\r\n")}) {
+    const std::string head = answer.substr(0, answer.find("\r\n\r\n") + 2);
+    EXPECT_EQ(std::distance(std::sregex_iterator(head.begin(), head.end(), date), {}), 1) << head;
   }
 }
 
