@@ -374,6 +374,7 @@ class HttpServer::Impl {
     if (response.events && !guard.reserve_event_stream(response.events))
       response = make_retry_later(503, "too many clients follow events");
     if (from.method == "HEAD") response.events.reset();
+    GuardedServer::hold_until_sent(std::move(response.permit));
     copy_to(to, std::move(response), from.version);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     spdlog::debug("request {}: {} {} {} {:.1f} ms", request.id, request.method, request.path, to.status,

@@ -58,6 +58,8 @@ void fill(httplib::Request& request, RequestHead head) {
 /// Event stream that follows the head of the answer, set by the handler. The library calls a handler on the
 /// thread that serves the connection, and does not tell the handler which connection that is.
 thread_local std::shared_ptr<EventSource> events_of_this_connection;
+/// Permit of the answer on that connection, until it has been sent.
+thread_local std::shared_ptr<const void> permit_of_this_connection;
 /// Stream of that connection, while the library serves it.
 thread_local HttpStream* stream_of_this_connection = nullptr;
 
@@ -174,6 +176,7 @@ void GuardedServer::serve_and_close(PendingConnection connection) noexcept {
   HttpStream stream(std::move(connection), limits_, draining_, queued_);
   events_of_this_connection.reset();
   serve_guarded(stream);
+  permit_of_this_connection.reset();
   if (auto events = std::exchange(events_of_this_connection, nullptr)) {
     if (!event_hub_.adopt(socket, std::move(events))) ::close(socket);
     return;
@@ -197,6 +200,10 @@ void GuardedServer::serve_guarded(HttpStream& stream) noexcept {
 
 void GuardedServer::stream_events(std::shared_ptr<EventSource> events) {
   events_of_this_connection = std::move(events);
+}
+
+void GuardedServer::hold_until_sent(std::shared_ptr<const void> permit) {
+  permit_of_this_connection = std::move(permit);
 }
 
 std::ptrdiff_t GuardedServer::read_body(char* to, std::size_t size) {

@@ -70,6 +70,9 @@ class GuardedServer final : public httplib::Server {
   /// the connection stays open and carries the events. For handlers of requests.
   static void stream_events(std::shared_ptr<EventSource> events);
 
+  /// Holds a permit until the answer of the request that this thread handles has been sent. For handlers.
+  static void hold_until_sent(std::shared_ptr<const void> permit);
+
  private:
   void queue_connection(PendingConnection connection) noexcept;
   /// Adds a connection to the queue of its threads. @returns the one that has no place any more

@@ -89,6 +89,7 @@ struct Response {
   std::shared_ptr<FileBody> file{};                         ///< stands for the body, if there is one
   std::shared_ptr<BodyStream> stream{};                     ///< the same
   std::shared_ptr<EventSource> events{};                    ///< follow the head, if there are any
+  std::shared_ptr<const void> permit{};                     ///< let go once the answer has been sent
 };
 
 /// Answer that sends the client to another address.

@@ -159,12 +159,14 @@ Response Routes::dispatch(const Request& request, std::string_view& pattern) con
 Response Routes::run_route(const Route& route, const Request& request, std::string id) const {
   if (draining_ && changes_something(route.method))
     return make_retry_later(503, "the service is shutting down");
-  WorkPermit permit(is_heavy(route, request) ? &heavy_limit_ : nullptr);
+  const bool heavy = is_heavy(route, request);
+  WorkPermit permit(heavy ? &heavy_limit_ : nullptr);
   if (!permit.acquire()) return make_retry_later(503, WorkPermit::kRefusal);
   const auto answer_by = [&](const Route& one, const Request& asked) {
     return one.handler({service_, asked, id, draining_, *metrics_, long_poll_limit_, store_copy_limit_,
                         stream_limit_, export_limit_, permit});
   };
+  if (heavy && route.method == "GET") return with_permit_to_send(answer_by(route, request));
   if (!changes_existing(route)) return answer_by(route, request);
   if (request.if_match.empty()) {
     const std::shared_lock beside_others(change_mutex_);
@@ -174,6 +176,14 @@ Response Routes::run_route(const Route& route, const Request& request, std::stri
   if (const Route* changed = find_changed(route))
     check_if_match(request, answer_by(*changed, make_get_of(request)));
   return answer_by(route, request);
+}
+
+Response Routes::with_permit_to_send(Response answer) const {
+  constexpr std::size_t kLargeAnswer = 1024 * 1024;
+  if (answer.body.size() <= kLargeAnswer) return answer;
+  answer.permit = answer_limit_.acquire();
+  if (!answer.permit) return make_retry_later(503, "as many large answers are being sent as may; try again");
+  return answer;
 }
 
 }  // namespace server

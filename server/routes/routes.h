@@ -49,6 +49,8 @@ class Routes {
   /// @param pattern  set to that of the route, if there is one
   [[nodiscard]] Response dispatch(const Request& request, std::string_view& pattern) const;
   [[nodiscard]] Response run_route(const Route& route, const Request& request, std::string id) const;
+  /// The same answer, with a permit to hold its body until it has been sent if that is large; or a refusal.
+  [[nodiscard]] Response with_permit_to_send(Response answer) const;
 
   jobs::Service& service_;
   std::shared_ptr<Metrics> metrics_;
@@ -62,6 +64,7 @@ class Routes {
   mutable WorkLimit heavy_limit_{2, 20, give_memory_back, &waiting_places_};
   mutable WorkLimit stream_limit_{4, 0, give_memory_back};
   mutable WorkLimit export_limit_{2, 4, give_memory_back};
+  mutable WorkLimit answer_limit_{8, 0, give_memory_back};
 };
 
 }  // namespace server

@@ -346,6 +346,24 @@ TEST_F(Http, IgnoresRangesThatAreNone) {
     EXPECT_EQ(status_of(get("/", std::string("range: ") + range + "\r\n")), 200) << range;
 }
 
+TEST(HttpAnswers, MayBeLargeOneAfterTheOther) {
+  Bench bench(endless_run);
+  HttpServer http(bench.routes(), {.address = "127.0.0.1", .port = 0}, short_limits());
+  const int port = http.bind();
+  ASSERT_NE(port, 0);
+  std::jthread listener([&] { http.listen(); });
+  const std::string path =
+      "/v1/sweeps/" +
+      bench.submit(R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 10000}}})") + "/results";
+  ASSERT_GT(bench.routes().answer({"GET", path, {}, "", "", "test-1"}).body.size(), 1'048'576U);
+  for (int k = 0; k < 10; ++k) {
+    RawClient client(port);
+    client.send("HEAD " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(status_of(client.read_all()), 200) << k;
+  }
+  http.stop();
+}
+
 TEST_F(Http, ReadsTheBodyOfAGetAsNothingElse) {
   const std::string answer =
       ask("GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 44\r\n\r\nDELETE /v1/sweeps "

@@ -117,7 +117,8 @@ TEST(Routes, ComputeLargeAnswersAFewAtATime) {
             "/v1/fits /v1/fits/{id}/events /v1/jobs /v1/jobs/{id} /v1/measurements /v1/measurements/{id} "
             "/v1/parameters /v1/executors /v1/openapi.json /docs /docs/docs.js /docs/swagger-ui-bundle.js "
             "/docs/swagger-ui.css /v1/store /metrics /healthz /readyz / ");
-  for (const auto& [limit, heavy] : {std::pair{"1000", false}, {"1001", true}, {"10000", true}, {"x", false}}) {
+  for (const auto& [limit, heavy] :
+       {std::pair{"1000", false}, {"1001", true}, {"10000", true}, {"x", false}}) {
     server::Request page{};
     page.query = {{"limit", limit}};
     EXPECT_EQ(server::is_heavy(server::Route{}, page), heavy) << limit;
@@ -127,6 +128,29 @@ TEST(Routes, ComputeLargeAnswersAFewAtATime) {
     submission.body = std::string(bytes, ' ');
     EXPECT_EQ(server::is_heavy(server::Route{}, submission), bytes > 65'536U) << bytes;
   }
+}
+
+TEST(Routes, HaveAFewLargeAnswersSentAtATime) {
+  Bench bench(server_tests::endless_run);
+  server::Request request{};
+  request.method = "GET";
+  request.path = "/v1/sweeps/" +
+                 bench.submit(R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 10000}}})") +
+                 "/results";
+  std::vector<server::Response> sent;
+  for (int k = 0; k < 8; ++k) {
+    sent.push_back(bench.routes().answer(request));
+    ASSERT_EQ(sent.back().status, 200) << k;
+    ASSERT_GT(sent.back().body.size(), 1'048'576U);
+  }
+  const auto one_more = bench.routes().answer(request);
+  EXPECT_EQ(one_more.status, 503);
+  EXPECT_FALSE(header(one_more, "Retry-After").empty());
+  request.query = {{"limit", "5"}};
+  EXPECT_EQ(bench.routes().answer(request).status, 200) << "a small one";
+  request.query = {};
+  sent.pop_back();
+  EXPECT_EQ(bench.routes().answer(request).status, 200);
 }
 
 // Requests let in before the service begins to end, and handled after its end.
