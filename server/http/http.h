@@ -24,6 +24,13 @@ struct HttpOptions {
 struct HttpLimits;
 
 /// Serves routes over HTTP/1.1: one request a connection, within limits, to clients that may ask.
+///
+/// cpp-httplib sees an empty request. GuardedServer reads and checks the head, and gives the library method
+/// and version alone, with "/" as the target. Path, query and headers are filled in afterwards (fill() in
+/// http_guard.cc): so the library decodes, drops and parses none of them. Headers on which it would act, it
+/// gets under names that it does not know (kRange, kAcceptEncoding). Handlers here take the body off the
+/// wire, ask the routes, and copy their answer to the library, which sends it. A mark (kHasRanges in http.cc)
+/// tells in the end which headers are an answer's own and which the library's.
 class HttpServer {
  public:
   /// @param routes  outlives this

@@ -355,7 +355,7 @@ TEST(HttpAnswers, MayBeLargeOneAfterTheOther) {
   const std::string path =
       "/v1/sweeps/" +
       bench.submit(R"({"sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 10000}}})") + "/results";
-  ASSERT_GT(bench.routes().answer({"GET", path, {}, "", "", "test-1"}).body.size(), 1'048'576U);
+  EXPECT_GT(bench.routes().answer({"GET", path, {}, "", "", "test-1"}).body.size(), 1'048'576U);
   for (int k = 0; k < 10; ++k) {
     RawClient client(port);
     client.send("HEAD " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
