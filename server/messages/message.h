@@ -61,7 +61,8 @@ class EventSource {
   EventSource(const EventSource&) = delete;
   EventSource& operator=(const EventSource&) = delete;
 
-  /// The text of what is new since the last call; empty if nothing is. Must not block.
+  /// The text of what is new since the last call; empty if nothing is. One thread asks for all streams: the
+  /// store may be read, and nothing be waited for.
   [[nodiscard]] virtual std::string next() = 0;
   /// @returns whether nothing will follow
   [[nodiscard]] virtual bool has_ended() const = 0;
