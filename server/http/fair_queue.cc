@@ -9,6 +9,11 @@ namespace server {
 std::optional<PendingConnection> FairQueue::add(PendingConnection& connection) {
   auto line = std::ranges::find(lines_, connection.peer, &Line::peer);
   if (size_ >= most_) return add_to_full(connection, line);
+  append(connection, line);
+  return std::nullopt;
+}
+
+void FairQueue::append(PendingConnection& connection, Place line) {
   if (line == lines_.end()) {
     lines_.push_back({.peer = connection.peer, .connections = {}});
     line = std::prev(lines_.end());
@@ -20,7 +25,6 @@ std::optional<PendingConnection> FairQueue::add(PendingConnection& connection) {
     throw;
   }
   ++size_;
-  return std::nullopt;
 }
 
 std::optional<PendingConnection> FairQueue::add_to_full(PendingConnection& connection, Place line) {
@@ -28,10 +32,10 @@ std::optional<PendingConnection> FairQueue::add_to_full(PendingConnection& conne
       lines_, {}, [](const Line& each) { return each.connections.size(); });
   const std::size_t own = line == lines_.end() ? 0 : line->connections.size();
   if (longest == lines_.end() || own + 1 >= longest->connections.size()) return std::move(connection);
+  append(connection, line);  // first, since there may be no memory for it
   std::optional<PendingConnection> displaced = std::move(longest->connections.back());
   longest->connections.pop_back();  // not its last: it had two more than this peer
   --size_;
-  static_cast<void>(add(connection));
   return displaced;
 }
 

@@ -35,6 +35,10 @@ class FairQueue {
 
   using Place = std::list<Line>::iterator;
 
+  /// Appends a connection to the line of its peer. Throws as add() does.
+  /// @param line  of its peer; the end if there is none
+  void append(PendingConnection& connection, Place line);
+
   /// Adds a connection to a queue that is full, as add() does.
   /// @param line  of its peer; the end if there is none
   std::optional<PendingConnection> add_to_full(PendingConnection& connection, Place line);

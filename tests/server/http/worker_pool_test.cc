@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -102,6 +104,34 @@ void start_without_memory() {
     std::_Exit(3);
   }
   std::_Exit(0);
+}
+
+/// In a process of its own, too: the name of a peer cannot be copied. The exit code is the number of
+/// connections that the queue has afterwards.
+void displace_without_memory() {
+  FairQueue queue(3);
+  for (int i = 0; i < 3; ++i) {
+    PendingConnection connection = connection_of("many", i);
+    EXPECT_FALSE(queue.add(connection).has_value());
+  }
+  PendingConnection large = connection_of(std::string(64 << 20, 'b'), 10);
+  const rlimit none{.rlim_cur = 1, .rlim_max = 1};
+  ::setrlimit(RLIMIT_AS, &none);
+  try {
+    static_cast<void>(queue.add(large));
+    std::_Exit(10);
+  } catch (const std::bad_alloc&) {
+  }
+  int left = 0;
+  while (queue.take()) ++left;
+  std::_Exit(large.socket == 10 ? left : 11);
+}
+
+TEST(FairQueueDeathTest, KeepsAllWhereThereIsNoMemoryForOneMore) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need address space of their own";
+#endif
+  EXPECT_EXIT(displace_without_memory(), testing::ExitedWithCode(3), "");
 }
 
 TEST(WorkerPoolDeathTest, SaysWhyItHasNoThreads) {
