@@ -28,8 +28,8 @@ inline namespace RPSUP_INSTRUCTION_SET {
 ///
 ///     dq = (dqd + b_q) / sigma,   dqdd = sigma dqd - b_v
 ///
-/// so that the tangent chi = (w, wd, vd) of a frame is linear in that of its parent's frame and in the joint's
-/// dqd. The steps are those of ArticulatedBodies, with chi instead of the acceleration:
+/// so that the tangent chi = (w, wd, vd) of a frame is linear in that of its parent's frame and in the
+/// joint's dqd. The steps are those of ArticulatedBodies, with chi instead of the acceleration:
 ///
 ///     (K29)  articulated tangent  p = P chi + p_0: the force that the children pass to a body, by the
 ///            tangent of its frame (6 x 9); the body's own force (K18) is added
