@@ -111,12 +111,18 @@ void ReactionFriction::give_up() {
 }
 
 /// inverse += (step - inverse y) (step^T inverse) / (step^T inverse y),  y = last residual - residual
+///
+/// The determinant of inverse keeps its sign if step^T inverse y > 0: then steps do not lead to a solution on
+/// which reactions do not settle. Else shorter steps follow the residual.
 void ReactionFriction::update_inverse() {
   last_residual_ -= residual_;
   image_.noalias() = inverse_ * last_residual_;
   row_.noalias() = inverse_.transpose() * step_;
   const double scale = step_.dot(image_);
-  if (!(std::abs(scale) > 1e-3 * step_.squaredNorm())) return;
+  if (!(scale > 1e-3 * step_.squaredNorm())) {
+    inverse_ *= 0.5;
+    return;
+  }
   image_ = (step_ - image_) / scale;
   inverse_.noalias() += image_ * row_.transpose();
 }

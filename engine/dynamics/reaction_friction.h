@@ -25,7 +25,8 @@ namespace engine {
 ///
 /// At one state the reactions are affine in the forces of friction, and these in N. N = g(N) is solved by
 /// Broyden's method. Source: C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations (1995),
-/// chapter 7. Where friction wedges the joints there is no solution, or there are several.
+/// chapter 7. Where friction wedges the joints there is no solution. Of several, the one is taken on which
+/// reactions settle in joints that yield a little: dN/dt ~ g(N) - N is stable there.
 class ReactionFriction {
  public:
   /// @param mechanism  must outlive this
