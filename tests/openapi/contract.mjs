@@ -7,7 +7,7 @@ const documentId = "openapi.json";
 // May meet any request, also one that no operation is for.
 const refusals = [400, 403, 404, 405, 408, 413, 414, 415, 431, 501];
 // Of HTTP, of its caches and of browsers, not of the interface.
-const headersOfHttp = /^(connection|transfer-encoding|content-(type|length|encoding|security-policy)|cache-control|vary|www-authenticate|cross-origin-resource-policy|referrer-policy|x-content-type-options|access-control-.*)$/;
+const headersOfHttp = /^(connection|date|transfer-encoding|content-(type|length|encoding|security-policy)|cache-control|vary|www-authenticate|cross-origin-resource-policy|referrer-policy|x-content-type-options|access-control-.*)$/;
 
 function pointerOf(...keys) {
   return `${documentId}#/${keys.map((key) => encodeURIComponent(key.replaceAll("~", "~0").replaceAll("/", "~1"))).join("/")}`;
