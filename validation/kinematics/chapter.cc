@@ -25,8 +25,9 @@ The bound of the drift is known beforehand. Let gamma be the acceleration with w
 open at constant rates. A step h of `rk4` leaves eps_q = alpha beta^2 gamma h^5 / 48 in Phi and
 eps_v = (alpha^2 beta^2 / 24 - beta^4 / 96) gamma h^5 in its rate, and rounding adds to both. The
 stabilisation keeps at most (2 alpha eps_q + eps_v) / (h beta^2) of all steps' errors in Phi, and
-(eps_q + 2 eps_v / (exp(1) alpha)) / h in its rate. At 0.1 ms both parts are about 1e-12 m. At 0.01 ms only rounding is left, and shorter steps
-leave more of it. With the flexible coupler the steps of `rk4` are 0.05 ms at most.)",
+(eps_q + 2 eps_v / (exp(1) alpha)) / h in its rate. At 0.1 ms both parts are about 1e-12 m. At 0.01 ms only
+rounding is left, and shorter steps leave more of it. With the flexible coupler the steps of `rk4` are 0.05 ms
+at most.)",
       .parts = {{"drive_laws_have_their_features", compute_drive_laws},
                 {"slider_follows_the_closed_form", compute_closed_form},
                 {"locked_rod_is_a_slider_crank", compute_slider_crank},
