@@ -47,8 +47,8 @@ std::function<CodeRun()> with(PlainLinkage made, const Run& run) {
 }
 
 /// @param step  [s]
-Competitor mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, double step, double accuracy,
-                  std::optional<double> wanted_ratio) {
+Competitor mujoco(const RpsupParameters& parameters, MujocoIntegrator integrator, double step,
+                  double accuracy, std::optional<double> wanted_ratio) {
   const std::string method = integrator == MujocoIntegrator::kEuler ? "Euler " : "RK4 ";
   return {"MuJoCo, " + method + digits(step, 2) + " s", accuracy, wanted_ratio, [=] {
             return with(make_plain_linkage(parameters), [=](const PlainLinkage& plain) {
@@ -107,8 +107,8 @@ Contest make_contest(const std::string& title, const Method& method, const Rpsup
           std::move(rivals)};
 }
 
-// After the settings whose ratios were asked for, each code has the loosest of 1, 2, 4 and 8 times a power of ten
-// with which the peak is right to 0.1 %.
+// After the settings whose ratios were asked for, each code has the loosest of 1, 2, 4 and 8 times a power of
+// ten with which the peak is right to 0.1 %.
 
 Contest make_rigid_contest(const Method& method) {
   const RpsupParameters parameters = linkage(Coupler::kRigid, 0.25e-3, 10.0);
@@ -210,7 +210,8 @@ void print_ideal_jobs(int repeats) {
 }
 
 void print_mujoco_time() {
-  const auto run = mujoco(linkage(Coupler::kRigid, 0.25e-3, 10.0), MujocoIntegrator::kRk4, kStep, 1.0, {}).prepare();
+  const RpsupParameters rigid = linkage(Coupler::kRigid, 0.25e-3, 10.0);
+  const auto run = mujoco(rigid, MujocoIntegrator::kRk4, kStep, 1.0, {}).prepare();
   std::cout << digits(time_cpu([&run] { (void)run(); }), 6) << '\n';
 }
 
