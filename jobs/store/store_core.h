@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // States of a store as it is opened, one after the other:
-// - locked: StoreLock keeps out others that come by the store's name, StoreFileLock those that come by
-//   another one.
+// - locked: StoreLock keeps out others that open the store by its name, StoreFileLock those that open it by
+//   another name.
 // - opened: Writer has brought it to the newest form. Its file is as it was, what is new stands in the log.
 // - begun: StoreCore::begin() has queued again what was running. On a full disk this waits for room, and
 //   until then no job is claimed.

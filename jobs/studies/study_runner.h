@@ -134,7 +134,7 @@ class StudyRunner {
   void change_sweep(const std::string& sweep_id, const std::function<void()>& change);
 
   /// Tells all running studies their new results, and adds the jobs that they ask for. A study that fails
-  /// keeps no other one.
+  /// keeps no other one from going on.
   StudyChanges advance();
   /// Progress of a running study at the last advance(), 0 .. 1.
   [[nodiscard]] double find_progress(const std::string& id) const;

@@ -22,7 +22,7 @@ struct OtherAnswer {
   AnswerForm form;
 };
 
-/// How much memory and time a route may take: as its request says by its size, or much in any case.
+/// Memory and time that a route may take: little or much by the size of its request, or much in any case.
 enum class Work { kBySize, kLarge };
 
 /// One route: method and pattern, handler, and entry of the OpenAPI document, which has no other source of

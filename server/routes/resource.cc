@@ -34,7 +34,7 @@ nlohmann::json under_base_path(const Request& request, nlohmann::json resource) 
 Response respond_created(const RequestContext& context, const Resource& resource, nlohmann::json created) {
   const std::string id = created.at("id");
   Response response = json_response(201, "");
-  // What is stored is answered: without the permit, as it was created.
+  // A stored resource is answered in any case: without the permit, as it was created.
   if (wait_as_preferred(context, resource, id, response) && context.permit.acquire())
     created = resource.find(id).value_or(created);
   response.body = to_text(under_base_path(context.request, std::move(created))) + "\n";

@@ -243,7 +243,7 @@ TEST(Idempotency, AnswersTheSameRequestAsBefore) {
   EXPECT_EQ(service.list_sweeps({}).at("items").size(), 3U);
 }
 
-// What is read after the commit may fail, or may have been deleted in between.
+// A row that is read after the commit may have been deleted in between, and reading may fail.
 TEST(Idempotency, MakesTheAnswerInOneStepWithWhatItAnswersWithoutAKeyToo) {
   const TemporaryStore temporary;
   std::vector<std::string> made;

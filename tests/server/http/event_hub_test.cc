@@ -67,7 +67,7 @@ class Connection {
   [[nodiscard]] int client() const { return client_; }
   [[nodiscard]] int server() const { return server_; }
 
-  /// What comes up to a text, or up to the end of the connection.
+  /// Text that comes up to another text, or up to the end of the connection.
   [[nodiscard]] std::string read_up_to(const std::string& end) const {
     std::string text;
     std::array<char, 4096> bytes{};
