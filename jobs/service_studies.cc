@@ -77,10 +77,8 @@ bool Service::wait_for_study(StudyKind kind, const std::string& id, std::chrono:
 }
 
 std::optional<json> Service::cancel_study(StudyKind kind, const std::string& id) {
-  const auto cancel_sweep = [this](const std::string& sweep) {
-    finish_cancelling(store_->queue.cancel_sweep(sweep), nullptr);
-  };
-  return runner(kind).cancel(id, cancel_sweep) ? runner(kind).find(id) : std::nullopt;
+  const auto cancel = [&] { finish_cancelling(store_->queue.cancel_study(id), nullptr); };
+  return runner(kind).cancel(id, cancel) ? runner(kind).find(id) : std::nullopt;
 }
 
 std::optional<json> Service::retry_study(StudyKind kind, const std::string& id) {

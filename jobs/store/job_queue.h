@@ -82,6 +82,8 @@ class JobQueue {
   void requeue(const ClaimedJob& job);
 
   [[nodiscard]] Cancellation cancel_sweep(const std::string& id);
+  /// Cancels a study that runs, and its jobs. Of a study that has ended, only the jobs.
+  [[nodiscard]] Cancellation cancel_study(const std::string& id);
   [[nodiscard]] Cancellation cancel_job(const std::string& id);
   /// Deletes a sweep that has ended, and its study with it.
   /// @param study  id of that study; kOfStudy if the sweep has another one

@@ -7,6 +7,7 @@
 
 #include "jobs/base/time_text.h"
 #include "jobs/store/job_queue.h"
+#include "jobs/store/read_rows.h"
 #include "jobs/store/store_insert.h"
 
 namespace jobs {
@@ -45,6 +46,16 @@ bool any_in_state(SQLite::Database& database, const std::string& condition, cons
   SQLite::Statement find(database, "SELECT 1 FROM jobs WHERE " + condition + " LIMIT 1");
   find.bind(1, id);
   return find.executeStep();
+}
+
+/// @param sweep  id of the sweep whose jobs are cancelled
+Cancellation cancel_jobs_of(SQLite::Database& database, const std::string& sweep, std::int64_t change) {
+  if (!find_sweep_seq(database, sweep)) return {};
+  std::vector<RunningJob> running = find_running(database, "s.id", sweep);
+  const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
+  const bool done = cancel_where(database, of_sweep, sweep, change) > 0 ||
+                    any_in_state(database, "state = 'cancelled' AND " + of_sweep, sweep);
+  return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
 }
 
 std::vector<std::int64_t> find_numbers(SQLite::Database& database, const char* query, std::int64_t sweep) {
@@ -161,13 +172,17 @@ void release_queued_jobs(SQLite::Database& database, std::int64_t sweep) {
 }  // namespace
 
 Cancellation JobQueue::cancel_sweep(const std::string& id) {
+  return core_.write_in_held_room(
+      [&](SQLite::Database& database) { return cancel_jobs_of(database, id, ++core_.changes); });
+}
+
+Cancellation JobQueue::cancel_study(const std::string& id) {
   return core_.write_in_held_room([&](SQLite::Database& database) -> Cancellation {
-    if (!find_sweep_seq(database, id)) return {};
-    std::vector<RunningJob> running = find_running(database, "s.id", id);
-    const std::string of_sweep = "sweep = (SELECT seq FROM sweeps WHERE id = ?)";
-    const bool done = cancel_where(database, of_sweep, id, ++core_.changes) > 0 ||
-                      any_in_state(database, "state = 'cancelled' AND " + of_sweep, id);
-    return {.outcome = done ? CancelOutcome::kDone : CancelOutcome::kEnded, .running = std::move(running)};
+    const auto study = read_study(database, id);
+    if (!study) return {};
+    Cancellation cancellation = cancel_jobs_of(database, study->sweep_id, ++core_.changes);
+    set_study_state(database, id, "running", "cancelled");
+    return cancellation;
   });
 }
 

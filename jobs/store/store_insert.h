@@ -60,6 +60,10 @@ void check_queue_limit(SQLite::Database& database, std::size_t max_queued);
 /// Gives queued jobs the content of this engine: results of a former one are not theirs.
 void rekey_queued_jobs(SQLite::Database& database);
 
+/// Gives a study another state. False, and nothing is stored, if it is not in the former one.
+bool set_study_state(SQLite::Database& database, const std::string& id, const std::string& former,
+                     const std::string& state, const std::optional<std::string>& error = {});
+
 /// Stores the response to a request under its key, and deletes those that are too old.
 void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
                     const std::string& response);

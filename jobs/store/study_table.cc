@@ -108,21 +108,26 @@ std::vector<StudyRow> StudyTable::list(std::string_view prefix, const std::strin
   });
 }
 
+bool set_study_state(SQLite::Database& database, const std::string& id, const std::string& former,
+                     const std::string& state, const std::optional<std::string>& error) {
+  SQLite::Statement set(
+      database,
+      "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE "
+      "max(?3, (SELECT created_ms FROM sweeps WHERE seq = searches.sweep), "
+      "(SELECT coalesce(max(ended_ms), 0) FROM jobs WHERE jobs.sweep = searches.sweep)) END "
+      "WHERE id = ?4 AND state = ?5");
+  set.bind(1, state);
+  if (error) set.bind(2, *error);
+  set.bind(3, now_unix_ms());
+  set.bind(4, id);
+  set.bind(5, former);
+  return set.exec() > 0;
+}
+
 bool StudyTable::set_state(const std::string& id, const std::string& former, const std::string& state,
                            const std::optional<std::string>& error) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
-    SQLite::Statement set(
-        database,
-        "UPDATE searches SET state = ?1, error = ?2, ended_ms = CASE ?1 WHEN 'running' THEN NULL ELSE "
-        "max(?3, (SELECT created_ms FROM sweeps WHERE seq = searches.sweep), "
-        "(SELECT coalesce(max(ended_ms), 0) FROM jobs WHERE jobs.sweep = searches.sweep)) END "
-        "WHERE id = ?4 AND state = ?5");
-    set.bind(1, state);
-    if (error) set.bind(2, *error);
-    set.bind(3, now_unix_ms());
-    set.bind(4, id);
-    set.bind(5, former);
-    return set.exec() > 0;
+    return set_study_state(database, id, former, state, error);
   });
 }
 

@@ -72,14 +72,13 @@ std::optional<ResultTable> StudyRunner::find_signal_table(const std::string& id)
   return results ? type_->make_signal_table(*row, *results) : std::nullopt;
 }
 
-bool StudyRunner::cancel(const std::string& id, const std::function<void(const std::string&)>& cancel_sweep) {
+bool StudyRunner::cancel(const std::string& id, const std::function<void()>& cancel_study) {
   const std::lock_guard lock(mutex_);
   const auto row = find_row(id);
   if (!row) return false;
   if (row->state != "running" && row->state != "cancelled") throw WrongState("the study has ended");
-  store_.studies.set_state(id, "running", "cancelled");
+  cancel_study();
   active_.erase(id);
-  cancel_sweep(row->sweep_id);
   return true;
 }
 

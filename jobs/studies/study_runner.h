@@ -120,9 +120,9 @@ class StudyRunner {
   /// See StudyType::make_signal_table().
   [[nodiscard]] std::optional<ResultTable> find_signal_table(const std::string& id) const;
 
-  /// Ends a study that runs; calls `cancel_sweep` with the id of its sweep.
+  /// Ends a study that runs; calls `cancel_study`, which cancels it with its jobs in the store.
   /// @returns false if there is no such study  @throws WrongState if it has ended otherwise
-  bool cancel(const std::string& id, const std::function<void(const std::string&)>& cancel_sweep);
+  bool cancel(const std::string& id, const std::function<void()>& cancel_study);
   /// Restarts a study that has ended; calls `retry_sweep`, which queues its failed jobs, with the id of its
   /// sweep. False if there is no such study.
   bool retry(const std::string& id, const std::function<void(const std::string&)>& retry_sweep);

@@ -161,6 +161,24 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.delete_study(StudyKind::kSearch, id));
 }
 
+// A study that was cancelled without its jobs would have them computed for nothing.
+TEST(Search, IsCancelledWithItsJobsOrNotAtAll) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  engine.hold();
+  std::string id;
+  {
+    jobs::Service service(options_of(store, engine, 1));
+    id = service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id");
+  }
+  execute_sql(store.file(),
+              "CREATE TRIGGER refusal BEFORE UPDATE ON jobs WHEN new.state = 'cancelled' "
+              "BEGIN SELECT RAISE(ABORT, 'no job is cancelled'); END");
+  jobs::Service service(options_of(store, engine, 1));
+  EXPECT_THROW(service.cancel_study(StudyKind::kSearch, id), jobs::StorageError);
+  EXPECT_EQ(service.find_study(StudyKind::kSearch, id).value().at("state"), "running");
+}
+
 // Its evaluations are its result: without them nothing is left of it.
 TEST(Search, KeepsItsSweep) {
   const TemporaryStore store;

@@ -111,6 +111,11 @@ def busy_sweep(seed):
             "sweep": {"clearance_mm": {"from": 0.1, "to": 0.5, "count": 12}}, "replicates": {"count": 1, "seed": seed}}
 
 
+def long_search():
+    return {"parameters": {"duration_s": 0.4, "run_up_s": 0.02}, "reuse": False, "metric": "peak_slider_acceleration_m_s2", "bound": 1,
+            "over": {"clearance_mm": {"from": 0.1, "to": 0.5, "first": 200}}}
+
+
 def check_reads(service, sweep_id, table):
     check(service.results(sweep_id) == table, "results while the disk is full")
     job = service.get(f"/v1/sweeps/{sweep_id}/results")[0]["job_id"]
@@ -184,6 +189,7 @@ def check_start(program):
     table = service.results(done[0])
     for end in ("orderly", "killed"):
         busy = service.submit({**busy_sweep(1), "name": end})
+        search = json.loads(service.ask("POST", "/v1/searches", long_search())[2])["id"]
         if end == "orderly":
             check(service.terminate()[0] == 0, "the end")
         else:
@@ -196,6 +202,8 @@ def check_start(program):
         check_full(service, folder)
         check(service.ask("POST", "/v1/sweeps", small_sweep(9))[0] == 507, "a sweep on a full disk")
         check_reads(service, done[0], table)
+        cancelled = service.ask("POST", f"/v1/searches/{search}/cancel")[0]
+        check(cancelled == 200, f"cancelling a study: {cancelled}")
         gone = done.pop()
         check(check_deleting(service, gone, (204,)), "deleting")
         if end == "orderly":
