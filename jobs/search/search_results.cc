@@ -82,8 +82,12 @@ void SearchResults::expect(std::size_t index, double x, std::size_t jobs) {
   combination.pending += jobs;
 }
 
+bool SearchResults::any_pending() const {
+  return std::ranges::any_of(combinations, [](const CombinationResults& one) { return one.pending > 0; });
+}
+
 std::string SearchResults::end_state() const {
-  if (std::ranges::any_of(combinations, &CombinationResults::cancelled)) return "cancelled";
+  if (cancelled) return "cancelled";
   const auto is_lost = [](const CombinationResults& one) { return one.limit.verdict == Verdict::kLost; };
   return std::ranges::any_of(combinations, is_lost) ? "failed" : "succeeded";
 }
@@ -115,7 +119,7 @@ std::optional<SearchResults::Position> SearchResults::find_position(const Result
 void SearchResults::add_result(const ResultRow& job, const Position& position) {
   CombinationResults& combination = combinations[position.combination];
   Evaluation& evaluation = combination.evaluations[position.evaluation];
-  combination.cancelled |= job.state == "cancelled";
+  cancelled |= job.state == "cancelled";
   const json value = metric_of(job, search_.metric);
   if (value.is_number()) evaluation.values.push_back(value.get<double>());
   else if (++evaluation.lost == 1) evaluation.lost_reason = lost_reason_of(job);

@@ -23,7 +23,6 @@ struct CombinationResults {
   std::vector<std::vector<std::string>>
       job_ids;                         ///< of each evaluation; without those of jobs that were only expected
   std::size_t pending = 0;             ///< jobs that have not ended
-  bool cancelled = false;              ///< whether any of its jobs was
   Limit limit;                         ///< set by the caller of SearchResults
 };
 
@@ -47,11 +46,13 @@ class SearchResults {
   /// Counts jobs of an evaluation as pending before they are added.
   void expect(std::size_t combination, double x, std::size_t jobs);
 
-  [[nodiscard]] std::string end_state() const;  ///< once no combination is open
+  [[nodiscard]] bool any_pending() const;
+  [[nodiscard]] std::string end_state() const;  ///< once no combination is open, or after a cancellation
   /// Evaluations that have ended over those that may be needed, 0 .. 1.
   [[nodiscard]] double calc_progress() const;
 
   std::vector<CombinationResults> combinations;
+  bool cancelled = false;  ///< whether any job was
 
  private:
   /// Indices of a job's combination and evaluation.

@@ -45,12 +45,13 @@ class LimitSampler final : public StudySampler {
       CombinationResults& combination = results_.combinations[k];
       combination.limit = find_limit(search_.interval, search_.rule, combination.evaluations);
       if (combination.limit.verdict != Verdict::kOpen) --open_;
+      if (results_.cancelled) continue;
       for (const double x : combination.limit.next) {
         next.cases.push_back(case_at(search_, combination.values, x));
         results_.expect(k, x, plan_cases(common_, ordered_json::array({next.cases.back()})).size());
       }
     }
-    if (open_ == 0) next.end_state = results_.end_state();
+    if (open_ == 0 || (results_.cancelled && !results_.any_pending())) next.end_state = results_.end_state();
     return next;
   }
 

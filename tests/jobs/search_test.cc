@@ -161,6 +161,22 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.delete_study(StudyKind::kSearch, id));
 }
 
+TEST(Search, AddsNoJobsOnceOneIsCancelled) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  engine.hold();
+  const json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
+  engine.await_running(1);
+  const json& last = begun.at("limits").at(0).at("points").at(4);  // beyond the limit
+  EXPECT_EQ(service.cancel_job(last.at("job_ids").at(0)).value().at("state"), "cancelled");
+  engine.release();
+  const json ended = wait_for_end(service, begun.at("id"));
+  EXPECT_EQ(ended.at("state"), "cancelled");
+  EXPECT_EQ(ended.at("counts").at("succeeded"), 4);
+  EXPECT_EQ(ended.at("counts").at("total"), 5);
+}
+
 // A study that was cancelled without its jobs would have them computed for nothing.
 TEST(Search, IsCancelledWithItsJobsOrNotAtAll) {
   const TemporaryStore store;
