@@ -49,8 +49,8 @@ class JobQueue {
   void check_sweep(const SweepPlan& plan, const std::string& request, std::size_t max_queued);
   std::string add_job(const PlannedJob& job, std::size_t max_queued,
                       const IdempotencyRecord<JobRow>& idempotency = {});
-  /// Adds jobs to a sweep and replaces its request. False, and nothing is stored, if the request is not
-  /// `former` any more.
+  /// Adds jobs to a sweep and replaces its request. The sweep's study, if there is one, goes on. False, and
+  /// nothing is stored, if the request is not `former` any more.
   bool extend_sweep(const std::string& id, const std::string& former, const std::string& request,
                     const std::vector<PlannedJob>& jobs, std::size_t max_queued);
   /// Adds cases to the request of a sweep that has some, and their jobs, however many wait: its study has

@@ -200,9 +200,7 @@ bool JobQueue::retry_sweep(const std::string& id, std::size_t max_queued) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {
     const auto sweep = find_sweep_seq(database, id);
     if (!sweep) return false;
-    run_for_each(database,
-                 "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?",
-                 {*sweep});
+    restart_study(database, *sweep);
     if (queue_again(database, *sweep) == 0) return true;
     rekey_queued_jobs(database);
     settle_known_jobs(database, *sweep, ++core_.changes);

@@ -97,7 +97,9 @@ bool JobQueue::extend_sweep(const std::string& id, const std::string& former, co
     change.bind(1, request);
     change.bind(2, id);
     change.bind(3, former);
-    return change.exec() > 0 && add_jobs(database, id, jobs, max_queued);
+    if (change.exec() == 0 || !add_jobs(database, id, jobs, max_queued)) return false;
+    restart_study(database, find_sweep_seq(database, id).value());
+    return true;
   });
 }
 

@@ -64,6 +64,9 @@ void rekey_queued_jobs(SQLite::Database& database);
 bool set_study_state(SQLite::Database& database, const std::string& id, const std::string& former,
                      const std::string& state, const std::optional<std::string>& error = {});
 
+/// Lets the study of a sweep go on, if there is one.
+void restart_study(SQLite::Database& database, std::int64_t sweep);
+
 /// Stores the response to a request under its key, and deletes those that are too old.
 void store_response(SQLite::Database& database, const std::string& key, const std::string& fingerprint,
                     const std::string& response);

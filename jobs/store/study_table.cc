@@ -124,6 +124,13 @@ bool set_study_state(SQLite::Database& database, const std::string& id, const st
   return set.exec() > 0;
 }
 
+void restart_study(SQLite::Database& database, std::int64_t sweep) {
+  SQLite::Statement restart(
+      database, "UPDATE searches SET state = 'running', error = NULL, ended_ms = NULL WHERE sweep = ?");
+  restart.bind(1, sweep);
+  restart.exec();
+}
+
 bool StudyTable::set_state(const std::string& id, const std::string& former, const std::string& state,
                            const std::optional<std::string>& error) {
   return core_.writer.write(Durability::kSurvivesPowerLoss, [&](SQLite::Database& database) {

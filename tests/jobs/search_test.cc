@@ -242,6 +242,25 @@ TEST(Search, TakesWhatIsAddedToItsSweepByHand) {
   EXPECT_EQ(limit.at("points").at(3).at("value"), 5.2) << "from there on there was less to halve";
 }
 
+TEST(Search, GoesOnWithWhatIsAddedToItsSweepAfterItsEnd) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  const json ended = wait_for_end(
+      service, service.submit_study(StudyKind::kSearch, request_for(5.3)).at("id"));
+  engine.hold();
+  (void)service.extend_sweep(ended.at("sweep_id"),
+                             ordered_json::parse(R"({"cases": [{"crank_velocity_rad_s": 5.2}]})"));
+  const json extended = service.find_study(StudyKind::kSearch, ended.at("id")).value();
+  EXPECT_EQ(extended.at("state"), "running");
+  EXPECT_EQ(extended.at("limits").at(0).at("verdict"), "open");
+  engine.release();
+  const json again = wait_for_end(service, ended.at("id"));
+  EXPECT_EQ(again.at("state"), "succeeded");
+  EXPECT_EQ(again.at("limits").at(0).at("limit"), ended.at("limits").at(0).at("limit"));
+  EXPECT_EQ(again.at("limits").at(0).at("points").size(), 14U);
+}
+
 TEST(Search, IsStoredOnceUnderOneKey) {
   const TemporaryStore store;
   FakeEngine engine;
