@@ -438,8 +438,6 @@ class FitParser : private FittedMeasurementsParser {
       if (std::ranges::none_of(made_.signals, tells))
         fault("/over" + pointer_token(parameter.path), "has no sample that is fitted");
     }
-    if (made_.basis == FitBasis::kFeatures && made_.signals.front().compared.t.size() < kFewestForNoise)
-      fault("/basis", "\"features\" need more samples than there are");
   }
 
   void check_size() {

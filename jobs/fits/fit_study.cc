@@ -109,6 +109,13 @@ InvalidRequest faults_of_request(const InvalidRequest& invalid) {
   return InvalidRequest(std::move(faults));
 }
 
+/// @throws InvalidRequest if features are to be compared and no signal has any
+void check_features(const FitObserver& observer) {
+  if (observer.problem().basis == FitBasis::kFeatures && observer.measured_features().empty())
+    throw InvalidRequest(std::vector<Fault>{
+        {"/basis", "\"features\" need a signal with more than 50 compared samples over two of its cycles"}});
+}
+
 class FitStudy final : public StudyType {
  public:
   FitStudy(const SweepReader& reader, FindMeasurement find_measurement)
@@ -118,6 +125,7 @@ class FitStudy final : public StudyType {
 
   [[nodiscard]] FirstSweep plan_first(const ordered_json& request, std::size_t max_jobs) const override {
     const auto observer = make_observer(request, max_jobs);
+    check_features(*observer);
     observers_.keep(request.dump(), observer);
     FitSampler sampler(observer, nullptr);
     NextCases first = sampler.ask();

@@ -448,6 +448,21 @@ TEST(Fit, FitsNoSampleTwice) {
   EXPECT_EQ(places_with(R"({"held_back_runs": [0, 1]})", "{}"), Places{});
 }
 
+// One signal that is long enough has features. Of 50 samples there are none.
+TEST(Fit, RefusesFeaturesThatNoSignalHas) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4, 6})));
+  request["basis"] = "features";
+  request["measurements"][0]["held_back_runs"] = {0};
+  EXPECT_EQ(fit_faults_of(service, request), std::set<std::string>{});
+  request["measurements"][0]["held_back_runs"] = ordered_json::array();
+  request["measurements"][0]["runs"] = {0};
+  request["measurements"][0]["fitted"] = ordered_json::parse("[[0.0975, 0.3475]]");
+  EXPECT_EQ(fit_faults_of(service, request), std::set<std::string>{"/basis"});
+}
+
 TEST(Fit, SaysWhichSamplesItFits) {
   const TemporaryStore store;
   ClosedForm form;
