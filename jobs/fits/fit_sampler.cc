@@ -122,9 +122,12 @@ NextCases FitSampler::end_if_nothing_waits(NextCases next) {
   if (cancelled_) {
     next.end_state = "cancelled";
   } else if (best_.empty()) {
+    const auto lost = std::ranges::find(summary_.points, FitPointState::kLost, &FitPointSummary::state);
     next.end_state = "failed";
-    next.error = "no point has all its jobs; the first has not because of " +
-                 summary_.points.front().lost_reason.value_or("");
+    next.error = "no point has a sum of squares that is a number";
+    if (lost != summary_.points.end())
+      next.error =
+          "no point has all its jobs; the first has not because of " + lost->lost_reason.value_or("");
   } else {
     next.end_state = "succeeded";
   }
@@ -170,10 +173,24 @@ FitSampler::Points FitSampler::run_design() {
   Points missing = missing_of(base_points_);
   if (!missing.empty()) return missing;
   choose_best(base_points_);
+  if (best_.empty() && !is_point_wise()) {
+    scale_absent_features();
+    choose_best(base_points_);
+  }
   if (best_.empty()) summary_.stage = FitStage::kEnded;
   else if (!summary_.basis) summary_.stage = FitStage::kDivergence;
   else set_basis(*summary_.basis);
   return {};
+}
+
+/// Needed where each point has one of them, as impacts: no sum of squares is a number before.
+void FitSampler::scale_absent_features() {
+  for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
+    if (observer_->measured_features()[k] != 0.0) continue;
+    for (const std::vector<double>& features : features_of(base_points_))
+      feature_scale_[k] += kFirstFeatureScale * features[k] / static_cast<double>(base_points_.size());
+  }
+  sum_features();
 }
 
 void FitSampler::begin_local(const FitPoint& start, std::size_t pass) {

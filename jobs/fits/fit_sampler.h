@@ -90,6 +90,8 @@ class FitSampler final : public StudySampler {
   [[nodiscard]] std::vector<std::vector<double>> features_of(const Points& points) const;
   /// Sets the scale of each feature by how much it scatters.
   void set_feature_scale(const std::vector<std::vector<double>>& replicates);
+  /// Scales the features that the measured signals have not by their mean over the design.
+  void scale_absent_features();
   /// Sums of all points by features and their scale.
   void sum_features();
   void end_pass(const LeastSquaresResult& result);

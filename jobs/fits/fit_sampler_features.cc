@@ -28,7 +28,7 @@ constexpr std::size_t kBudgetOfCentre = 100;
 constexpr double kNearMeasured = 0.2;
 constexpr std::size_t kScatterReplicates = 8;
 constexpr double kFeatureDesignShare = 0.15;  ///< of the points between which features choose the first basin
-/// Least scale of a feature, as part of its measured value.
+/// Least scale of a feature, as part of its measured value or, where that is 0, of its mean.
 constexpr double kLeastFeatureScale = 0.02;
 constexpr std::size_t kMostFeatureScan = 400;
 constexpr double kScanReach = 3.0;  ///< of the scan by features, over that of the linearised intervals
@@ -168,7 +168,8 @@ void FitSampler::set_feature_scale(const std::vector<std::vector<double>>& repli
   const FeatureScatter scatter = calc_scatter(replicates);
   const double mean_of = 1.0 + 1.0 / static_cast<double>(problem_.replicates);
   for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
-    const double least = kLeastFeatureScale * std::abs(observer_->measured_features()[k]);
+    const double measured = std::abs(observer_->measured_features()[k]);
+    const double least = kLeastFeatureScale * (measured > 0.0 ? measured : scatter.mean[k]);
     const double known = population_ ? feature_scale_[k] : std::numeric_limits<double>::min();
     feature_scale_[k] = std::max({scatter.deviation[k] * std::sqrt(mean_of), least, known});
   }

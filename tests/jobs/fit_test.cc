@@ -310,6 +310,21 @@ TEST(Fit, ComparesFeaturesOfMotionsThatDiverge) {
   EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.03);
 }
 
+// The measured signal is never above three times its RMS, and those of all jobs are.
+TEST(Fit, ComparesFeaturesThatTheMeasuredSignalHasNot) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::Service service(options_of(store, form));
+  ordered_json request = fit_request(store_measurement(service, measured({4}, 0.25)));
+  request["basis"] = "features";
+  request["over"] = {{"clearance_mm", {{"from", 0.3}, {"to", 0.5}}}};
+  request["parameters"]["restitution"] = 0.8;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.01);
+  EXPECT_FALSE(parameter_of(ended, "clearance_mm").at("linearised").is_null()) << ended.at("remarks");
+}
+
 // Point by point the quietest motion is nearest to a measured one that wanders.
 TEST(Fit, JudgesDivergenceByMotionsLikeTheMeasuredOne) {
   const TemporaryStore store;
