@@ -43,8 +43,8 @@ Json make_fitted_channel() {
   Json positive = {{"type", "number"}, {"exclusiveMinimum", 0}};
   return options_of({{"weight", described(positive, "of its residuals")},
                      {"noise", described(positive,
-                                         "standard deviation, in the unit of the channel; the RMS of "
-                                         "the samples about their mean if left out")}});
+                                         "standard deviation, in the unit of the channel; estimated "
+                                         "from more than 50 fitted samples if left out")}});
 }
 
 Json make_fitted_measurement() {
