@@ -19,9 +19,6 @@
 
 namespace jobs {
 
-/// Value of lost_reason for a candidate whose parameters do not fit together, so that no job computes it.
-inline constexpr std::string_view kInvalidParameters = "invalid_parameters";
-
 /// Values of the variables, and the metrics of their jobs.
 struct OptimisationCandidate {
   std::vector<double> values;  ///< one a variable

@@ -82,12 +82,12 @@ std::vector<std::string> paths_of_axes(const SearchRequest& search) {
 }
 
 /// Results of all jobs, with the limits that follow from them. @param search  must outlive them
-SearchResults collect_results(const SearchRequest& search, const SweepResults& jobs) {
+SearchResults collect_results(const StudyRow& row, const SearchRequest& search, const SweepResults& jobs) {
   SearchResults results(search, jobs.sweep);
   for (const ResultRow& job : jobs.rows) results.add(job);
-  for (CombinationResults& combination : results.combinations) {
-    combination.limit = find_limit(search.interval, search.rule, combination.evaluations);
-  }
+  const auto common_sweep = common_sweep_of_search(nlohmann::ordered_json::parse(row.request));
+  for (std::size_t k = 0; k < results.combinations.size(); ++k)
+    results.judge(k, common_sweep);
   return results;
 }
 
@@ -115,7 +115,7 @@ const std::vector<std::string>& search_listing_keys() {
 }
 
 json search_json(const StudyRow& row, const SearchRequest& search, const SweepResults& jobs, int threads) {
-  const SearchResults results = collect_results(search, jobs);
+  const SearchResults results = collect_results(row, search, jobs);
   json made = search_summary_json(row);
   made["axes"] = paths_of_axes(search);
   made["counts"] = progress_json(jobs.sweep, threads).at("counts");
@@ -138,7 +138,7 @@ ResultTable limit_table(const StudyRow& row, const SearchRequest& search, const 
   }
   const json common{{"parameter", search.parameter}, {"metric", search.metric}, {"bound", search.rule.bound},
                     {"quantile", search.rule.quantile}};
-  for (const CombinationResults& combination : collect_results(search, jobs).combinations) {
+  for (const CombinationResults& combination : collect_results(row, search, jobs).combinations) {
     json flat = limit_json(combination, search);
     flat.update(common);
     std::vector<json> cells;

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 
+#include "jobs/base/errors.h"
 #include "jobs/requests/axis.h"
+#include "jobs/requests/expand.h"
 #include "jobs/results/resource_json.h"
 
 namespace jobs {
 namespace {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
@@ -74,6 +77,32 @@ std::optional<std::size_t> SearchResults::end(const ResultRow& job) {
   --combination.evaluations[position->evaluation].pending;
   add_result(job, *position);
   return position->combination;
+}
+
+std::vector<std::size_t> SearchResults::judge(std::size_t index, const ordered_json& common_sweep) {
+  CombinationResults& combination = combinations[index];
+  while (true) {
+    combination.limit = find_limit(search_.interval, search_.rule, combination.evaluations);
+    if (cancelled) return {};
+    std::vector<std::size_t> jobs;
+    for (const double x : combination.limit.next) {
+      jobs.push_back(count_jobs(combination, x, common_sweep));
+      if (jobs.back() > 0) continue;
+      Evaluation& evaluation = combination.evaluations[evaluation_at(x, combination)];
+      evaluation.lost = 1;
+      evaluation.lost_reason = std::string(kInvalidParameters);
+    }
+    if (std::ranges::find(jobs, std::size_t{0}) == jobs.end()) return jobs;
+  }
+}
+
+std::size_t SearchResults::count_jobs(const CombinationResults& combination, double x,
+                                      const ordered_json& common_sweep) const {
+  try {
+    return plan_cases(common_sweep, ordered_json::array({case_at(search_, combination.values, x)})).size();
+  } catch (const InvalidRequest&) {  // two values may be valid and one between them not
+    return 0;
+  }
 }
 
 void SearchResults::expect(std::size_t index, double x, std::size_t jobs) {

@@ -42,13 +42,13 @@ class LimitSampler final : public StudySampler {
   [[nodiscard]] NextCases ask() override {
     NextCases next;
     for (const std::size_t k : std::exchange(ready_, {})) {
-      CombinationResults& combination = results_.combinations[k];
-      combination.limit = find_limit(search_.interval, search_.rule, combination.evaluations);
+      const std::vector<std::size_t> jobs = results_.judge(k, common_);
+      const CombinationResults& combination = results_.combinations[k];
       if (combination.limit.verdict != Verdict::kOpen) --open_;
-      if (results_.cancelled) continue;
-      for (const double x : combination.limit.next) {
+      for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const double x = combination.limit.next[i];
         next.cases.push_back(case_at(search_, combination.values, x));
-        results_.expect(k, x, plan_cases(common_, ordered_json::array({next.cases.back()})).size());
+        results_.expect(k, x, jobs[i]);
       }
     }
     if (open_ == 0 || (results_.cancelled && !results_.any_pending())) next.end_state = results_.end_state();

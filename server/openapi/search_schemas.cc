@@ -21,8 +21,8 @@ Json make_verdict() {
 
 Json make_lost_reason() {
   return described(or_null(kText),
-                   "the error_reason of a failed job, cancelled, or no_value: the job succeeded and the "
-                   "metric does not apply to it");
+                   "the error_reason of a failed job, cancelled, no_value: the job succeeded and the metric "
+                   "does not apply to it, or invalid_parameters: the value does not fit the others");
 }
 
 Json make_limit() {

@@ -327,6 +327,32 @@ TEST(Search, SaysThatItsMetricDoesNotApply) {
   EXPECT_EQ(table.rows.at(0).back(), "no_value");
 }
 
+// Run-ups are 0 or at least 1e-6 s: both ends fit, the middle does not.
+TEST(Search, GoesOnBesideAValueThatDoesNotFit) {
+  const TemporaryStore store;
+  jobs::ServiceOptions options = options_of(store, 2);
+  options.runner = [](const jobs::JobSpec& spec, const engine::StopQuery&, const auto&...) {
+    engine::RunResult result;
+    const bool exceeds = spec.parameters.run_up > 0.0 && spec.parameters.restitution < 0.85;
+    result.metrics.assign(engine::metric_table().size(), exceeds ? 2.0 : 0.0);
+    return result;
+  };
+  jobs::Service service(options);
+  const ordered_json request{{"over", {{"run_up_s", {{"from", 0}, {"to", 1.5e-6}, {"first", 2}}}}},
+                             {"metric", engine::metric_table()[0].key},
+                             {"bound", 1},
+                             {"sweep", {{"restitution", {0.8, 0.9}}}}};
+  const json ended = wait_for_end(service, service.submit_study(StudyKind::kSearch, request).at("id"));
+  EXPECT_EQ(ended.at("state"), "failed");
+  EXPECT_EQ(ended.at("error"), nullptr);
+  EXPECT_EQ(ended.at("counts").at("succeeded"), 4);
+  const json& lost = ended.at("limits").at(0);
+  EXPECT_EQ(lost.at("verdict"), "lost");
+  EXPECT_EQ(lost.at("lost_reason"), "invalid_parameters");
+  EXPECT_EQ(lost.at("points").at(1).at("lost"), 1);
+  EXPECT_EQ(ended.at("limits").at(1).at("verdict"), "never_exceeded");
+}
+
 TEST(Search, IsRefusedWithEveryFault) {
   const TemporaryStore store;
   FakeEngine engine;
