@@ -140,7 +140,9 @@ std::vector<Estimate> calc_estimates(const FitIntervals& intervals, std::span<co
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const double part = part_at(spans[i], x[i]);
     const double reach = intervals.quantile * intervals.deviations[static_cast<Eigen::Index>(i)];
-    estimates.push_back({x[i], value_at(spans[i], part - reach), value_at(spans[i], part + reach)});
+    // On a logarithmic scale 0 is infinitely far away, and would look like a value.
+    const double low = std::isinf(reach) ? -reach : value_at(spans[i], part - reach);
+    estimates.push_back({x[i], low, value_at(spans[i], part + reach)});
   }
   return estimates;
 }

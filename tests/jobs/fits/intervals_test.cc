@@ -2,6 +2,7 @@
 #include "jobs/fits/intervals.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -184,6 +185,8 @@ TEST(FitIntervals, NameParametersThatCannotBeTold) {
   EXPECT_EQ(all.find("mass"), std::string::npos) << all;
   EXPECT_TRUE(std::isfinite(intervals.deviations[3]));
   EXPECT_TRUE(std::isinf(intervals.deviations[0]));
+  EXPECT_EQ(intervals.parameters[0].low, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(intervals.parameters[0].high, std::numeric_limits<double>::infinity());
 }
 
 /// Fit, intervals and profile of a model with white noise.
