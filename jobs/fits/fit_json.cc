@@ -45,21 +45,26 @@ json range_json(const FitSummary& summary, std::size_t i) {
   return {{"low", summary.ranges[i].low}, {"high", summary.ranges[i].high}};
 }
 
-bool is_identified(const FitSummary& summary, const Span& span, std::size_t i) {
+/// @returns empty if an end of the profile was not found, so that nothing tells
+std::optional<bool> is_identified(const FitSummary& summary, const Span& span, std::size_t i) {
   if (!summary.intervals || !std::isfinite(summary.intervals->deviations[static_cast<Eigen::Index>(i)]))
     return false;
   if (summary.basis == FitBasis::kFeatures && !summary.ranges.empty())
     return is_decided(summary.ranges[i], span);
   if (!summary.profiles) return true;
   const ProfileInterval& interval = (*summary.profiles)[i];
-  return interval.low.verdict != ProfileVerdict::kOpen || interval.high.verdict != ProfileVerdict::kOpen;
+  const auto has_end = [&](ProfileVerdict verdict) {
+    return interval.low.verdict == verdict || interval.high.verdict == verdict;
+  };
+  if (has_end(ProfileVerdict::kFound)) return true;
+  return has_end(ProfileVerdict::kLost) ? std::nullopt : std::optional(false);
 }
 
-/// Null where a larger budget might tell.
+/// Null where a larger budget, or jobs that do not fail, might tell.
 json identified_json(const FitSummary& summary, const Span& span, std::size_t i) {
   if (!summary.intervals) return nullptr;
-  if (is_identified(summary, span, i)) return true;
-  return summary.budget_ended_local ? json() : json(false);
+  const std::optional<bool> identified = is_identified(summary, span, i);
+  return identified == false && summary.budget_ended_local ? json() : value_or_null(identified);
 }
 
 json parameters_json(const FitProblem& problem, const FitSummary& summary) {
