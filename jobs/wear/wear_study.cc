@@ -94,10 +94,10 @@ class WearSampler final : public StudySampler {
   WearSampler(WearStudyRequest study, const SweepResults& results, WearRates& rates)
       : study_(std::move(study)), rates_(rates), integrator_(study_.rule, study_.round_bore()) {
     const json request = json::parse(results.sweep.request);
-    for (const json& bore : request.at("cases")) {
-      bores_.emplace(bore.at(kWearKey).get<WearGrid>(), bores_.size());
+    for (const ResultRow& job : results.rows) {  // fewer than cases after a deletion that found no room
+      bores_.emplace(request.at("cases").at(jobs_.size()).at(kWearKey).get<WearGrid>(), jobs_.size());
+      jobs_.push_back({.id = job.job_id, .state = job.state});
     }
-    for (const ResultRow& job : results.rows) jobs_.push_back({.id = job.job_id, .state = job.state});
     advance();
   }
 

@@ -178,6 +178,24 @@ TEST(WearStudy, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.find_study(StudyKind::kWear, id));
 }
 
+// A deletion on a full disk may leave some of the first jobs.
+TEST(WearStudy, GoesOnAfterAPartOfItsJobsWasDeleted) {
+  const TemporaryStore store;
+  SlidingEngine engine;
+  json whole;
+  {
+    jobs::Service service(options_for(store, engine));
+    whole = wait_for_study_end(service, service.submit_study(StudyKind::kWear, kRequest).at("id"));
+  }
+  execute_sql(store.file(), "DELETE FROM jobs WHERE seq > (SELECT min(seq) FROM jobs)");
+  jobs::Service service(options_for(store, engine));
+  EXPECT_EQ(service.find_study(StudyKind::kWear, whole.at("id")).value().at("verdict"), "open");
+  (void)service.retry_study(StudyKind::kWear, whole.at("id"));
+  const json again = wait_for_study_end(service, whole.at("id"));
+  EXPECT_EQ(again.at("verdict"), "hours_reached");
+  EXPECT_EQ(again.at("cycles").size(), whole.at("cycles").size());
+}
+
 TEST(WearStudy, IsStoredOnceUnderOneKey) {
   const TemporaryStore store;
   SlidingEngine engine;
