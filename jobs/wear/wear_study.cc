@@ -6,7 +6,9 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -96,16 +98,16 @@ class WearSampler final : public StudySampler {
     const json request = json::parse(results.sweep.request);
     for (const ResultRow& job : results.rows) {  // fewer than cases after a deletion that found no room
       bores_.emplace(request.at("cases").at(jobs_.size()).at(kWearKey).get<WearGrid>(), jobs_.size());
-      jobs_.push_back({.id = job.job_id, .state = job.state});
+      jobs_.push_back(job_of(job));
     }
     advance();
   }
 
   void tell(const ResultRow& ended) override {
-    // The job without an id is that of the bore that ask() gave last: there is one at a time.
+    // One job runs at a time. It has no id yet if ask() added it since the sampler was made.
     const auto job = std::find_if(jobs_.rbegin(), jobs_.rend(),
                                   [&](const Job& one) { return one.id.empty() || one.id == ended.job_id; });
-    *job = {.id = ended.job_id, .state = ended.state};
+    *job = job_of(ended);
   }
 
   [[nodiscard]] NextCases ask() override {
@@ -113,12 +115,12 @@ class WearSampler final : public StudySampler {
     NextCases next;
     if (history().next && bores_.emplace(*history().next, jobs_.size()).second) {
       next.cases.push_back(case_of(*history().next));
-      jobs_.push_back({.id = "", .state = "queued"});
+      jobs_.push_back({.id = "", .state = "queued", .error_reason = {}});
     }
     if (history().verdict == WearVerdict::kLost) {
       const bool cancelled = std::ranges::find(jobs_, "cancelled", &Job::state) != jobs_.end();
       next.end_state = cancelled ? "cancelled" : "failed";
-      if (!cancelled) next.error = "a job has no result that tells its wear";
+      if (!cancelled) next.error = describe_loss();
     } else if (history().verdict != WearVerdict::kOpen) {
       next.end_state = "succeeded";
     }
@@ -133,7 +135,18 @@ class WearSampler final : public StudySampler {
  private:
   struct Job {
     std::string id, state;
+    std::optional<std::string> error_reason;
   };
+
+  static Job job_of(const ResultRow& row) {
+    return {.id = row.job_id, .state = row.state, .error_reason = row.error_reason};
+  }
+
+  [[nodiscard]] std::string describe_loss() const {
+    const auto failed = std::ranges::find(jobs_, "failed", &Job::state);
+    if (failed == jobs_.end()) return "a job has no trajectory that tells its wear";
+    return failed->id + " has no result: " + failed->error_reason.value_or(failed->state);
+  }
 
   void advance() {
     integrator_.advance([this](const WearGrid& depth_um) -> std::optional<WearEvaluation> {
