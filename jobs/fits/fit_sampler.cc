@@ -116,8 +116,10 @@ NextCases FitSampler::ask() {
 
 NextCases FitSampler::end_if_nothing_waits(NextCases next) {
   if (cancelled_) next.cases.clear();  // the stages were only followed as far as the results go
-  const bool waits = std::ranges::any_of(
-      pending_, [&](std::size_t index) { return !cancelled_ || has_jobs(summary_.points[index]); });
+  else made_points_ = summary_.points.size();
+  const bool waits = std::ranges::any_of(pending_, [&](std::size_t index) {
+    return index < made_points_ || has_jobs(summary_.points[index]);
+  });
   if (waits || !next.cases.empty()) return next;
   if (cancelled_) {
     next.end_state = "cancelled";

@@ -154,6 +154,7 @@ class FitSampler final : public StudySampler {
   std::map<FitPoint, std::size_t> indices_;            ///< in summary_.points
   std::vector<std::vector<std::string>> swept_;        ///< of the jobs of each point, one a run; empty: none
   std::vector<std::size_t> pending_;                   ///< points with jobs that have not ended
+  std::size_t made_points_ = 0;                        ///< points up to the last whose jobs were added
   std::map<FitPoint, std::vector<double>> residuals_;  ///< point-wise ones that may be needed again
   double least_loss_ = std::numeric_limits<double>::infinity();  ///< of point-wise ones, of searches
   std::map<FitPoint, std::vector<double>> features_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "jobs/requests/expand.h"
@@ -147,6 +148,7 @@ Optimiser::Optimiser(OptimisationRequest request, const ordered_json& common_swe
     if (job.state == "queued" || job.state == "running") ++candidate.pending;
     else take_result(job, candidate);
   }
+  made_ = candidates_.size();
 }
 
 void Optimiser::tell(const ResultRow& ended) {
@@ -161,9 +163,9 @@ NextCases Optimiser::ask() {
   NextCases next;
   for (StartSearch& start : starts_) ask_start(start, next);
   if (cancelled_) next.cases.clear();  // the starts were only followed as far as the results go
-  const bool waits = std::ranges::any_of(candidates_, [&](const OptimisationCandidate& one) {
-    return one.pending > 0 && (!cancelled_ || !one.job_ids.empty());
-  });
+  else made_ = candidates_.size();
+  const auto is_pending = [](const OptimisationCandidate& one) { return one.pending > 0; };
+  const bool waits = std::ranges::any_of(std::span(candidates_).first(made_), is_pending);
   if (next.cases.empty() && !waits) end_study(next);
   return next;
 }

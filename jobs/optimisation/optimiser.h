@@ -104,6 +104,7 @@ class Optimiser final : public StudySampler {
   const nlohmann::ordered_json common_sweep_;
   std::vector<std::size_t> positions_;             ///< of each variable in ResultRow::swept
   std::vector<OptimisationCandidate> candidates_;  ///< in the order in which they were asked for
+  std::size_t made_ = 0;  ///< candidates with jobs; those that follow were dropped after a cancellation
   std::map<std::vector<double>, std::size_t> indices_;
   std::vector<StartSearch> starts_;
   bool cancelled_ = false;  ///< whether a job was

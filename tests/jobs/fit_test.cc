@@ -387,6 +387,35 @@ TEST(Fit, GoesOnAfterARestartWithoutRepeatingAJob) {
       << "but for those that were cut off";
 }
 
+// The ids of jobs that are added while the service runs are not known before they end.
+TEST(Fit, WaitsForItsJobsOnceOneIsCancelled) {
+  const TemporaryStore store;
+  ClosedForm form;
+  std::atomic<int> begun = 0, held_from = 1;
+  std::atomic<bool> is_held = true;
+  jobs::ServiceOptions options = options_of(store, form);
+  options.threads = 1;
+  options.runner = [&, run = form.runner()](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
+    ++begun;
+    while (is_held && begun >= held_from && !stop(0.0))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return run(spec, stop);
+  };
+  jobs::Service service(options);
+  const json first = service.submit_study(kFit, fit_request(store_measurement(service, measured({4}))));
+  held_from = first.at("counts").at("total").get<int>() + 1;
+  while (begun < held_from) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto rows = service.find_results(first.at("sweep_id")).value().rows;
+  ASSERT_GT(rows.size(), static_cast<std::size_t>(held_from));
+  EXPECT_EQ(service.cancel_job(rows.back().at(0)).value().at("state"), "cancelled");
+  EXPECT_FALSE(service.wait_for_study(kFit, first.at("id"), std::chrono::milliseconds(200)));
+  is_held = false;
+  const json ended = wait_for_fit(service, first.at("id"));
+  EXPECT_EQ(ended.at("state"), "cancelled");
+  EXPECT_EQ(ended.at("counts").at("cancelled"), 1);
+  EXPECT_EQ(ended.at("counts").at("succeeded").get<std::size_t>(), rows.size() - 1);
+}
+
 TEST(Fit, GoesOnBesideJobsThatFail) {
   const TemporaryStore store;
   ClosedForm form;

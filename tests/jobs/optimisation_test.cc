@@ -3,6 +3,7 @@
 // restitution is 0.5.
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -318,6 +319,35 @@ TEST(Optimisation, IsCancelledRetriedAndDeleted) {
   EXPECT_TRUE(service.delete_study(kKind, id));
   EXPECT_FALSE(service.find_study(kKind, id).has_value());
   EXPECT_FALSE(service.find_sweep(ended.at("sweep_id")).has_value());
+}
+
+// The ids of jobs that are added while the service runs are not known before they end.
+TEST(Optimisation, WaitsForItsJobsOnceOneIsCancelled) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  std::atomic<int> begun = 0, held_from = 0;
+  jobs::ServiceOptions options = options_of(store, engine, 1);
+  options.runner = [&, fake = engine.runner()](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
+    if (++begun == held_from) engine.hold();
+    return fake(spec, stop);
+  };
+  engine.hold();
+  jobs::Service service(options);
+  ordered_json request = least_request();
+  request["starts"] = 1;
+  const json first = service.submit_study(kKind, request);
+  held_from = first.at("counts").at("total").get<int>() + 1;
+  engine.release();
+  while (begun < held_from) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  const auto rows = service.find_results(first.at("sweep_id")).value().rows;
+  ASSERT_GT(rows.size(), static_cast<std::size_t>(held_from));
+  EXPECT_EQ(service.cancel_job(rows.back().at(0)).value().at("state"), "cancelled");
+  EXPECT_FALSE(service.wait_for_study(kKind, first.at("id"), std::chrono::milliseconds(200)));
+  engine.release();
+  const json ended = wait_for_study(service, first.at("id"));
+  EXPECT_EQ(ended.at("state"), "cancelled");
+  EXPECT_EQ(ended.at("counts").at("cancelled"), 1);
+  EXPECT_EQ(ended.at("counts").at("succeeded").get<std::size_t>(), rows.size() - 1);
 }
 
 TEST(Optimisation, NamesEveryFaultOfARequest) {
