@@ -21,6 +21,9 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+constexpr std::size_t kEffectCells = 5;
+constexpr std::size_t kIndexCells = 6;
+
 /// A sweep's design, its parameters in the order of the request: the resource has them in the order of the
 /// alphabet, but lists what is swept in that of the request.
 ordered_json design_of(const json& sweep) {
@@ -115,11 +118,16 @@ void append(const Estimate& estimate, std::vector<json>& cells) {
 
 std::vector<std::vector<json>> effect_cells(const WholeBlocks& whole) {
   std::vector<std::vector<json>> cells;
-  for (const ElementaryEffects& effects : calc_elementary_effects(whole.points, whole.values)) {
-    cells.emplace_back();
-    cells.back().emplace_back(effects.mean);
-    append(effects.mean_size, cells.back());
-    cells.back().emplace_back(effects.deviation);
+  for (const std::optional<ElementaryEffects>& effects :
+       calc_elementary_effects(whole.points, whole.values)) {
+    std::vector<json>& row = cells.emplace_back();
+    if (!effects) {
+      row.resize(kEffectCells);
+      continue;
+    }
+    row.emplace_back(effects->mean);
+    append(effects->mean_size, row);
+    row.emplace_back(effects->deviation);
   }
   return cells;
 }
@@ -134,9 +142,10 @@ std::vector<std::vector<json>> index_cells(const WholeBlocks& whole, std::size_t
   return cells;
 }
 
-/// The cells of each parameter; nulls if there are too few blocks.
+/// The cells of each parameter; nulls if there are too few blocks, or too few effects.
 std::vector<std::vector<json>> measures_of(bool morris, const WholeBlocks& whole, std::size_t dimensions) {
-  if (whole.blocks < 2) return std::vector<std::vector<json>>(dimensions, std::vector<json>(morris ? 5 : 6));
+  if (whole.blocks < 2)
+    return std::vector<std::vector<json>>(dimensions, std::vector<json>(morris ? kEffectCells : kIndexCells));
   return morris ? effect_cells(whole) : index_cells(whole, dimensions);
 }
 

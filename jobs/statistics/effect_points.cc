@@ -170,14 +170,16 @@ UnitPoints saltelli_points(std::size_t blocks, std::size_t dimensions, std::uint
   return points;
 }
 
-std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points,
-                                                       std::span<const double> values) {
-  std::vector<ElementaryEffects> measures;
+std::vector<std::optional<ElementaryEffects>> calc_elementary_effects(const UnitPoints& points,
+                                                                      std::span<const double> values) {
+  std::vector<std::optional<ElementaryEffects>> measures;
   for (const auto& of_input : effects_of(points, values)) {
+    auto& measured = measures.emplace_back();
+    if (of_input.size() < 2) continue;
     std::vector<double> sizes;
     for (const double effect : of_input) sizes.push_back(std::abs(effect));
-    measures.push_back({.mean = mean_of(of_input), .mean_size = estimate_mean(sizes),
-                        .deviation = *calc_replicate_statistics(of_input).spread});
+    measured = ElementaryEffects{.mean = mean_of(of_input), .mean_size = estimate_mean(sizes),
+                                 .deviation = *calc_replicate_statistics(of_input).spread};
   }
   return measures;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,10 +32,11 @@ struct ElementaryEffects {
   double deviation = 0.0;  ///< sigma: how much the effect depends on the point
 };
 
-/// @param points, values  of whole trajectories, two or more, as morris_points() gives them
-/// @returns one a dimension
-[[nodiscard]] std::vector<ElementaryEffects> calc_elementary_effects(const UnitPoints& points,
-                                                                     std::span<const double> values);
+/// @param points, values  of whole trajectories, two or more, as morris_points() gives them; coordinates may
+/// be those of rounded values
+/// @returns one a dimension; empty if fewer than two trajectories have a step along it
+[[nodiscard]] std::vector<std::optional<ElementaryEffects>> calc_elementary_effects(
+    const UnitPoints& points, std::span<const double> values);
 
 /// Sobol's indices: part of a response's variance that an input makes.
 struct SobolIndices {

@@ -101,6 +101,21 @@ TEST(Sensitivity, HasTheElementaryEffectsOfAList) {
   }
 }
 
+// Rounded to whole numbers, the step of one trajectory is 0 with the first seed, and of both with the other.
+TEST(Sensitivity, HasNoEffectsOfFewerThanTwoSteps) {
+  ordered_json request = ordered_json::parse(R"({"design": {"type": "morris", "trajectories": 2, "levels": 6,
+      "over": {"radial_levels": {"from": 1, "to": 2, "scale": "log"}}}})");
+  for (const int seed : {1, 9}) {
+    request["design"]["seed"] = seed;
+    const Ended ended = run_sensitivity(request);
+    const auto table = calc_sensitivity(ended.sweep, ended.results, peak());
+    ASSERT_EQ(table.rows.size(), 1U);
+    EXPECT_EQ(effect_cell(table, 0, "blocks"), 2) << seed;
+    for (const char* const column : {"effect_mean", "effect_size", "effect_size_low", "effect_deviation"})
+      EXPECT_EQ(effect_cell(table, 0, column), nullptr) << seed;
+  }
+}
+
 // Replicates of some points alone: the others' rows are not taken for theirs.
 TEST(Sensitivity, KnowsWhichPointsHaveReplicates) {
   ordered_json request = design_of("saltelli");

@@ -76,7 +76,7 @@ TEST(ElementaryEffects, AreTheSlopesOfAPlane) {
       points, values_at(points, [](const std::vector<double>& p) { return 2.0 * p[0] - 3.0 * p[1]; }));
   ASSERT_EQ(effects.size(), 3U);
   for (const auto& [input, slope] : {std::pair{0, 2.0}, {1, -3.0}, {2, 0.0}}) {
-    const auto& effect = effects[static_cast<std::size_t>(input)];
+    const auto& effect = effects[static_cast<std::size_t>(input)].value();
     EXPECT_NEAR(effect.mean, slope, 1e-12);
     EXPECT_NEAR(effect.mean_size.value, std::abs(slope), 1e-12);
     EXPECT_NEAR(effect.mean_size.high - effect.mean_size.low, 0.0, 1e-12);
@@ -90,9 +90,9 @@ TEST(ElementaryEffects, ScatterWhereInputsWorkTogether) {
   for (const auto& effect : jobs::calc_elementary_effects(
            points, values_at(points, [](const std::vector<double>& p) { return p[0] * p[1]; }))) {
     const double error = std::sqrt(5.0) / 6.0 / std::sqrt(2000.0);
-    EXPECT_NEAR(effect.mean, 0.5, 4.0 * error);
-    EXPECT_NEAR(effect.deviation, std::sqrt(5.0) / 6.0, 4.0 * error);
-    EXPECT_NEAR(effect.mean_size.high - effect.mean_size.low, 2.0 * 1.96 * error, 0.1 * error);
+    EXPECT_NEAR(effect->mean, 0.5, 4.0 * error);
+    EXPECT_NEAR(effect->deviation, std::sqrt(5.0) / 6.0, 4.0 * error);
+    EXPECT_NEAR(effect->mean_size.high - effect->mean_size.low, 2.0 * 1.96 * error, 0.1 * error);
   }
 }
 
