@@ -86,7 +86,6 @@ bool StudyRunner::retry(const std::string& id, const std::function<void(const st
   const std::lock_guard lock(mutex_);
   const auto row = find_row(id);
   if (!row) return false;
-  if (row->state == "running") return true;
   active_.erase(id);
   retry_sweep(row->sweep_id);
   ++wakeups_;

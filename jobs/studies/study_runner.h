@@ -123,8 +123,8 @@ class StudyRunner {
   /// Ends a study that runs; calls `cancel_study`, which cancels it with its jobs in the store.
   /// @returns false if there is no such study  @throws WrongState if it has ended otherwise
   bool cancel(const std::string& id, const std::function<void()>& cancel_study);
-  /// Restarts a study that has ended; calls `retry_sweep`, which queues its failed jobs, with the id of its
-  /// sweep. False if there is no such study.
+  /// Restarts a study that has ended; calls `retry_sweep`, which queues its failed and cancelled jobs again,
+  /// with the id of its sweep. One that runs reads all its jobs again. False if there is no such study.
   bool retry(const std::string& id, const std::function<void(const std::string&)>& retry_sweep);
   /// Sweep of a study that has ended. @throws WrongState if it has not
   [[nodiscard]] std::optional<std::string> find_ended_sweep(const std::string& id) const;

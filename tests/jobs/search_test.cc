@@ -161,6 +161,21 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.delete_study(StudyKind::kSearch, id));
 }
 
+TEST(Search, IsRetriedWhileItRuns) {
+  const TemporaryStore store;
+  FakeEngine engine;
+  jobs::Service service(options_of(store, engine, 1));
+  engine.hold();
+  const json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
+  engine.await_running(1);
+  const json& last = begun.at("limits").at(0).at("points").at(4);
+  EXPECT_EQ(service.cancel_job(last.at("job_ids").at(0)).value().at("state"), "cancelled");
+  const json retried = service.retry_study(StudyKind::kSearch, begun.at("id")).value();
+  EXPECT_EQ(retried.at("counts").at("cancelled"), 0);
+  engine.release();
+  EXPECT_EQ(wait_for_end(service, begun.at("id")).at("state"), "succeeded");
+}
+
 TEST(Search, AddsNoJobsOnceOneIsCancelled) {
   const TemporaryStore store;
   FakeEngine engine;
