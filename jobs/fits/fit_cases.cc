@@ -25,6 +25,12 @@ std::vector<Span> spans_of(const FitProblem& problem) {
   return spans;
 }
 
+std::vector<std::string> names_of(const FitProblem& problem) {
+  std::vector<std::string> names;
+  for (const FitParameter& parameter : problem.parameters) names.push_back(parameter.path);
+  return names;
+}
+
 FitPoint point_at(const FitProblem& problem, const std::vector<double>& parts) {
   FitPoint point;
   for (std::size_t i = 0; i < parts.size(); ++i)

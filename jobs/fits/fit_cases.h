@@ -16,6 +16,9 @@ namespace jobs {
 /// Spans of the parameters.
 [[nodiscard]] std::vector<Span> spans_of(const FitProblem& problem);
 
+/// Paths of the parameters.
+[[nodiscard]] std::vector<std::string> names_of(const FitProblem& problem);
+
 /// Point at the given parts of the spans: the nearest decimals of 12 digits.
 /// @param parts  in [0, 1], one a parameter
 [[nodiscard]] FitPoint point_at(const FitProblem& problem, const std::vector<double>& parts);

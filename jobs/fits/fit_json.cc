@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "jobs/base/optional_json.h"
+#include "jobs/fits/fit_cases.h"
 #include "jobs/results/resource_json.h"
 
 namespace jobs {
@@ -174,8 +175,7 @@ json remarks_json(const FitProblem& problem, const FitSummary& summary) {
         "have no interval yet.");
     return remarks;
   }
-  std::vector<std::string> names;
-  for (const FitParameter& parameter : problem.parameters) names.push_back(parameter.path);
+  const std::vector<std::string> names = names_of(problem);
   for (std::string& sentence : describe_unidentifiable(names, *summary.intervals))
     remarks.push_back(std::move(sentence));
   for (std::size_t i = 0; summary.profiles && i < names.size(); ++i) {

@@ -138,14 +138,13 @@ FitPath::Step FitPath::accept(const Eigen::VectorXd& parts) {
   }
   for (Eigen::Index k = 0; k < parts.size(); ++k) {
     if (add_column(parts, k)) continue;
-    const std::string index = std::to_string(free_[static_cast<std::size_t>(k)]);
+    const std::string name = name_of(free_[static_cast<std::size_t>(k)]);
     if (before.x.empty())
-      return stop(
-          FitEnd::kStartFailed,
-          "The simulations beside the start of the fit failed, on both sides of parameter " + index + ".");
+      return stop(FitEnd::kStartFailed,
+                  "The simulations beside the start of the fit failed, on both sides of " + name + ".");
     result_ = before;
     return stop(FitEnd::kNoDerivative,
-                "The fit ended where the simulations on both sides of parameter " + index + " fail.");
+                "The fit ended where the simulations on both sides of " + name + " fail.");
   }
   if (!missing_.empty()) {
     stopped_ = true;
@@ -154,6 +153,10 @@ FitPath::Step FitPath::accept(const Eigen::VectorXd& parts) {
   accepted_ = parts;
   failed_steps_ = 0;
   return Step::kEvaluated;
+}
+
+std::string FitPath::name_of(std::size_t parameter) const {
+  return problem_.names.empty() ? "parameter " + std::to_string(parameter) : problem_.names[parameter];
 }
 
 /// Adds the column of the Jacobian, or the points that it wants. @returns whether there may be one

@@ -49,6 +49,7 @@ class FitPath {
   [[nodiscard]] FitPoint point_at(const Eigen::VectorXd& parts) const;
   [[nodiscard]] Neighbour neighbour(const Eigen::VectorXd& parts, Eigen::Index column, double distance) const;
   [[nodiscard]] double step_of(Eigen::Index column) const;
+  [[nodiscard]] std::string name_of(std::size_t parameter) const;
   [[nodiscard]] std::vector<double> first_distances(double part, Eigen::Index column) const;
   [[nodiscard]] std::vector<double> fallback_distances(double part, Eigen::Index column) const;
   const std::optional<std::vector<double>>* visit(const FitPoint& point);

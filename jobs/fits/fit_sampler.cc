@@ -238,9 +238,12 @@ void FitSampler::weigh_signals(const FitPoint& point) {
 
 FitSampler::Points FitSampler::run_local() {
   while (true) {
-    LeastSquaresAnswer answer = solve_least_squares(
-        {.spans = spans_of(problem_), .start = local_start_, .fixed = {}, .options = local_options()},
-        evaluations_);
+    LeastSquaresAnswer answer = solve_least_squares({.spans = spans_of(problem_),
+                                                     .start = local_start_,
+                                                     .fixed = {},
+                                                     .options = local_options(),
+                                                     .names = names_of(problem_)},
+                                                    evaluations_);
     if (answer.result) {
       end_local(std::move(*answer.result));
       if (summary_.stage != FitStage::kLocal) return {};
@@ -314,11 +317,15 @@ void FitSampler::end_feature_pass(const LeastSquaresResult& result) {
 void FitSampler::end_local(LeastSquaresResult result) {
   const bool is_fit = !result.x.empty() && result.end != FitEnd::kStartFailed;
   if (is_fit && !ends_) return is_point_wise() ? end_pass(result) : end_feature_pass(result);
+  if (!ends_ && is_point_wise()) {  // jobs beside the start fail
+    leaves_noise_ = false;
+    return begin_scan();
+  }
   if (is_fit && is_point_wise()) judge_residuals(as_vector(result.residuals));
   summary_.budget_ended_local = result.end == FitEnd::kMostEvaluations;
   summary_.local_end = summary_.budget_ended_local ? "The budget ended the least squares." : result.message;
   summary_.stage = FitStage::kPrediction;
-  if (result.x.empty() || result.end == FitEnd::kStartFailed) {
+  if (!is_fit) {
     summary_.remarks.push_back("There are no intervals: " + result.message);
     return;
   }

@@ -32,6 +32,7 @@ struct LeastSquaresProblem {
   FitPoint start;                  ///< within the spans
   std::vector<std::size_t> fixed;  ///< indices of parameters that stay at the start
   LeastSquaresOptions options;
+  std::vector<std::string> names{};  ///< of the parameters, for messages
 };
 
 enum class FitEnd {

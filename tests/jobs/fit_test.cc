@@ -428,6 +428,29 @@ TEST(Fit, GoesOnBesideJobsThatFail) {
   EXPECT_NEAR(parameter_of(ended, "restitution").at("value").get<double>(), 0.8, 0.01);
 }
 
+// Jobs fail beside the best value as far as the differences of the first least squares reach.
+TEST(Fit, SearchesOnWhereJobsBesideTheBestPointFail) {
+  const TemporaryStore store;
+  ClosedForm form;
+  jobs::ServiceOptions options = options_of(store, form);
+  options.runner = [run = form.runner()](const jobs::JobSpec& spec, const engine::StopQuery& stop) {
+    const double off = std::abs(spec.parameters.restitution - 0.8);
+    if (off <= 1e-4 || off >= 0.02) return run(spec, stop);
+    engine::RunResult failed;
+    failed.status = engine::RunStatus::kNonFinite;
+    failed.detail = "no number";
+    return failed;
+  };
+  jobs::Service service(options);
+  ordered_json request = fit_request(store_measurement(service, measured({4})));
+  request["over"] = {{"restitution", {{"from", 0.6}, {"to", 1}, {"start", 0.8}}}};
+  request["parameters"]["clearance_mm"] = 0.3;
+  const json ended = run_fit(service, request);
+  ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
+  EXPECT_NEAR(parameter_of(ended, "restitution").at("value").get<double>(), 0.8, 1e-3);
+  EXPECT_FALSE(parameter_of(ended, "restitution").at("linearised").is_null()) << ended.at("remarks");
+}
+
 TEST(Fit, TakesSamplesOfJobsThatSuitTheMeasuredTimes) {
   const auto at_steps = [](std::vector<double> steps) {
     std::vector<double> time_s{0.1};

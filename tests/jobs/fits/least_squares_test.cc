@@ -100,6 +100,17 @@ TEST(LeastSquares, SaysThatItsStartFailed) {
   EXPECT_FALSE(result.message.empty());
 }
 
+TEST(LeastSquares, NamesTheParameterBesideWhichAllFails) {
+  auto problem = rosenbrock_problem();
+  problem.names = {"clearance_mm", "restitution"};
+  LeastSquares fit(problem);
+  const auto result = run_asker(fit, [&](const jobs::FitPoint& x) {
+    return x[1] == problem.start[1] ? rosenbrock(x) : std::vector<double>{};
+  });
+  EXPECT_EQ(result.end, jobs::FitEnd::kStartFailed);
+  EXPECT_NE(result.message.find("both sides of restitution"), std::string::npos) << result.message;
+}
+
 TEST(LeastSquares, KeepsToItsLargestNumberOfEvaluations) {
   auto problem = rosenbrock_problem();
   problem.options.max_evaluations = 12;
