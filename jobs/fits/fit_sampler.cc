@@ -310,6 +310,7 @@ void FitSampler::end_feature_pass(const LeastSquaresResult& result) {
     return begin_global();
   }
   ends_ = true;
+  summary_.local_end = result.message;  // what follows are the derivatives alone
   begin_local(best_, 0);
   steps_ = find_steps(result.jacobian, std::sqrt(features));
 }
@@ -323,7 +324,8 @@ void FitSampler::end_local(LeastSquaresResult result) {
   }
   if (is_fit && is_point_wise()) judge_residuals(as_vector(result.residuals));
   summary_.budget_ended_local = result.end == FitEnd::kMostEvaluations;
-  summary_.local_end = summary_.budget_ended_local ? "The budget ended the least squares." : result.message;
+  if (summary_.budget_ended_local) summary_.local_end = "The budget ended the least squares.";
+  else if (is_point_wise() || !summary_.local_end) summary_.local_end = result.message;
   summary_.stage = FitStage::kPrediction;
   if (!is_fit) {
     summary_.remarks.push_back("There are no intervals: " + result.message);

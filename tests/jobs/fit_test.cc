@@ -323,6 +323,7 @@ TEST(Fit, ComparesFeaturesThatTheMeasuredSignalHasNot) {
   ASSERT_EQ(ended.at("state"), "succeeded") << ended.at("error");
   EXPECT_NEAR(parameter_of(ended, "clearance_mm").at("value").get<double>(), 0.3, 0.01);
   EXPECT_FALSE(parameter_of(ended, "clearance_mm").at("linearised").is_null()) << ended.at("remarks");
+  EXPECT_NE(ended.at("local_end"), "The fit ended at its largest number of iterations.");
 }
 
 // Point by point the quietest motion is nearest to a measured one that wanders.
