@@ -14,9 +14,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Steps between the ends of a span that its decimals tell apart.
-constexpr double kSpanSteps = 1e6;
-
 }  // namespace
 
 std::vector<Span> spans_of(const FitProblem& problem) {
@@ -34,7 +31,7 @@ std::vector<std::string> names_of(const FitProblem& problem) {
 FitPoint point_at(const FitProblem& problem, const std::vector<double>& parts) {
   FitPoint point;
   for (std::size_t i = 0; i < parts.size(); ++i)
-    point.push_back(decimal_between(problem.parameters[i].span, parts[i], kSpanSteps));
+    point.push_back(decimal_between(problem.parameters[i].span, parts[i], kSearchSteps));
   return point;
 }
 

@@ -12,7 +12,6 @@
 namespace jobs {
 namespace {
 
-constexpr double kPointSteps = 1e6;           // of a span: its decimals are at least as fine as 1e-9 of it
 constexpr double kShorterDifference = 0.125;  // of a step, if the simulations on both sides fail
 
 Eigen::VectorXd as_vector(const std::vector<double>& values) {
@@ -42,7 +41,7 @@ FitPoint FitPath::point_at(const Eigen::VectorXd& parts) const {
   FitPoint point = problem_.start;
   for (Eigen::Index k = 0; k < parts.size(); ++k) {
     const std::size_t i = free_[static_cast<std::size_t>(k)];
-    if (parts[k] != start_[k]) point[i] = decimal_between(problem_.spans[i], parts[k], kPointSteps);
+    if (parts[k] != start_[k]) point[i] = decimal_between(problem_.spans[i], parts[k], kSearchSteps);
   }
   return point;
 }

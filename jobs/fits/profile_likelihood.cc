@@ -62,7 +62,7 @@ FitPoint EndSearch::start_at(double distance) const {
             : (covariance(i, i) > 0.0 ? covariance(static_cast<Eigen::Index>(j), i) / covariance(i, i) : 0.0);
     if (slope == 0.0) continue;
     const double part = part_at(problem_.spans[j], start[j]) + side_ * distance * slope;
-    start[j] = decimal_between(problem_.spans[j], std::clamp(part, 0.0, 1.0), 1e6);
+    start[j] = decimal_between(problem_.spans[j], std::clamp(part, 0.0, 1.0), kSearchSteps);
   }
   return start;
 }

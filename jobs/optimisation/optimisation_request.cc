@@ -21,8 +21,6 @@ using nlohmann::ordered_json;
 /// Keys that an optimisation has in common with the sweep of its jobs.
 constexpr std::array<std::string_view, 7> kCommonKeys{"name",  "parameters", "sweep",   "replicates",
                                                       "reuse", "priority",   "executor"};
-/// Steps between the ends of a span that its decimals tell apart.
-constexpr double kSteps = 1e6;
 
 /// Reader of one request; a member function a part of it.
 class OptimisationParser : private RequestParser {
@@ -130,16 +128,8 @@ class OptimisationParser : private RequestParser {
     }
     check_keys_of(given, pointer, keys);
     const json metric = given.value("metric", json());
-    if (!is_right(pointer + "/metric", describe_metric_fault(metric))) return {};
+    if (!is_right(pointer + "/metric", describe_metric_fault(metric, metrics_))) return {};
     return metric.get<std::string>();
-  }
-
-  [[nodiscard]] std::string describe_metric_fault(const json& metric) const {
-    if (!metric.is_string()) return "must be the name of a metric";
-    const std::string name = metric.get<std::string>();
-    const std::vector<std::string_view> known(metrics_.begin(), metrics_.end());
-    if (known.empty() || std::ranges::find(known, name) != known.end()) return "";
-    return "\"" + name + "\": " + describe_unknown_key(name, known);
   }
 
   double read_quantile(const json& given, const std::string& pointer) {
@@ -247,7 +237,7 @@ std::vector<double> candidate_at(const OptimisationRequest& request, const UnitP
   std::vector<double> candidate;
   for (std::size_t i = 0; i < point.size(); ++i) {
     const Variable& variable = request.variables[i];
-    const double value = decimal_between(variable.span, point[i], kSteps);
+    const double value = decimal_between(variable.span, point[i], kSearchSteps);
     candidate.push_back(variable.integer ? std::round(value) : value);
   }
   return candidate;
@@ -274,11 +264,7 @@ ordered_json case_of(const OptimisationRequest& request, const std::vector<doubl
 }
 
 ordered_json common_sweep_of(const ordered_json& request) {
-  ordered_json sweep = ordered_json::object();
-  for (const std::string_view key : kCommonKeys) {
-    if (request.contains(key)) sweep[std::string(key)] = request.at(key);
-  }
-  return sweep;
+  return take_keys(request, kCommonKeys);
 }
 
 }  // namespace jobs

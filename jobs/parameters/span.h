@@ -20,6 +20,9 @@ struct Span {
   bool logarithmic = false;  ///< then both ends are above 0
 };
 
+/// Steps of the searches between the ends of a span, as decimal_between() takes them.
+inline constexpr double kSearchSteps = 1e6;
+
 /// Number between two others above 0, from (to / from)^part: NaN or beyond the ends if to / from is no normal
 /// double.
 [[nodiscard]] double geometric_between(double from, double to, double part);

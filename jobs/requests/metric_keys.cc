@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "jobs/linkages/linkage_json.h"
+#include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/parameter_path.h"
 #include "jobs/requests/parameters.h"
 
@@ -59,6 +60,14 @@ std::vector<std::string> metric_keys_of(const json& request) {
   }
   if (is_shared) add_keys(request, std::move(shared), keys);
   return keys;
+}
+
+std::string describe_metric_fault(const json& metric, const std::vector<std::string>& known) {
+  if (!metric.is_string()) return "must be the name of a metric, peak_slider_acceleration_m_s2, say";
+  const auto name = metric.get<std::string>();
+  if (known.empty() || std::ranges::find(known, name) != known.end()) return "";
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  return "\"" + name + "\": " + describe_unknown_key(name, names);
 }
 
 }  // namespace jobs

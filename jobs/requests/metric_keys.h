@@ -18,4 +18,9 @@ inline constexpr std::array<std::string_view, 3> kPartsWithMetrics{"parameters",
 /// @param request  of a sweep, or those parts of a study; its parameters and cases have no faults
 [[nodiscard]] std::vector<std::string> metric_keys_of(const nlohmann::json& request);
 
+/// Fault of the name of a metric; empty if there is none.
+/// @param known  metrics that there are; empty: unknown
+[[nodiscard]] std::string describe_metric_fault(const nlohmann::json& metric,
+                                                const std::vector<std::string>& known);
+
 }  // namespace jobs

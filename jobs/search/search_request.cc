@@ -103,13 +103,9 @@ class SearchParser : private RequestParser {
   }
 
   void read_metric() {
-    const std::vector<std::string_view> known(metrics_.begin(), metrics_.end());
-    if (!request_.contains("metric") || !request_.at("metric").is_string()) return fault("/metric",
-        "must be the name of a metric, peak_slider_acceleration_m_s2, say");
-    search_.metric = request_.at("metric").get<std::string>();
-    if (!known.empty() && std::ranges::find(known, search_.metric) == known.end()) {
-      fault("/metric", "\"" + search_.metric + "\": " + describe_unknown_key(search_.metric, known));
-    }
+    const json metric = request_.value("metric", ordered_json());
+    if (is_right("/metric", describe_metric_fault(metric, metrics_)))
+      search_.metric = metric.get<std::string>();
   }
 
   void read_rule() {
