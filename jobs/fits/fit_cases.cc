@@ -2,7 +2,6 @@
 #include "jobs/fits/fit_cases.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "jobs/parameters/unit_scale.h"
 #include "jobs/requests/parameter_path.h"
@@ -11,7 +10,6 @@
 namespace jobs {
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 }  // namespace
@@ -65,7 +63,7 @@ ordered_json case_of(const FitProblem& problem, std::size_t run, const FitPoint&
   for (std::size_t i = 0; i < point.size(); ++i) {
     const FitParameter& parameter = problem.parameters[i];
     if (parameter.sensor || parameter.run.value_or(run) != run) continue;
-    set_in_case(made, parameter.name, parameter.integer ? json(std::llround(point[i])) : json(point[i]));
+    set_in_case(made, parameter.name, point[i]);
   }
   return made;
 }

@@ -85,7 +85,7 @@ std::vector<std::vector<double>> predictions_of(const FitSignal& signal, std::si
   for (const std::vector<double>& one : residuals) {
     auto& prediction = predictions.emplace_back();
     for (std::size_t k = 0; k < signal.compared.t.size(); ++k)
-      prediction.push_back(one[first + k] + signal.compared.y[k] / *signal.compared.sigma);
+      prediction.push_back(one[first + k] + signal.compared.y[k] / signal.compared.sigma);
   }
   return predictions;
 }
@@ -166,7 +166,7 @@ std::vector<double> FitObserver::calc_deviations(const std::vector<double>& resi
   for (const FitSignal& signal : problem_->signals) {
     const std::size_t count = signal.compared.t.size();
     const double rms = rms_of(std::span(residuals).subspan(first, count));
-    const double noise = signal.noise / *signal.measured.sigma;
+    const double noise = signal.noise / signal.measured.sigma;
     deviations.push_back(count == 0 ? 1.0
                                     : std::max(std::hypot(rms, noise), signal.weight * kLeastDeviation));
     first += count;
@@ -200,7 +200,7 @@ double FitObserver::misfit(const std::vector<double>& residuals) const {
   for (const FitSignal& signal : problem_->signals) {
     const std::size_t count = signal.compared.t.size();
     const double rms = rms_of(std::span(residuals).subspan(first, count));
-    const double noise = signal.noise / *signal.measured.sigma;
+    const double noise = signal.noise / signal.measured.sigma;
     sum += static_cast<double>(count) * std::max(0.0, rms * rms - noise * noise);
     first += count;
   }
@@ -217,7 +217,7 @@ double FitObserver::misfit_of_noise() const {
   for (const FitSignal& signal : problem_->signals) {
     const auto count = static_cast<double>(signal.compared.t.size());
     if (count == 0.0) continue;
-    const double noise = signal.noise / *signal.measured.sigma;
+    const double noise = signal.noise / signal.measured.sigma;
     const auto estimated_from = static_cast<double>(signal.noise_samples);
     const double relative =
         kOfMeanSquare / count + (signal.noise_samples > 0 ? kOfEstimate / estimated_from : 0.0);

@@ -24,7 +24,6 @@ struct FitParameter {
   std::string path;  ///< "clearance_mm", "runs.1.crank_velocity_rad_s", "sensor.slider_position_m.gain"
   Span span;
   std::optional<double> start{};
-  bool integer = false;
   std::string name{};  ///< of the job's parameter or of the sensor's channel
   std::optional<SensorQuantity> sensor{};
   std::optional<std::size_t> run{};  ///< the only run that has it; empty: all have

@@ -181,7 +181,6 @@ class FitParser : private FittedMeasurementsParser {
     made_.parameters.push_back({.path = path,
                                 .span = variable->span,
                                 .start = variable->start,
-                                .integer = variable->integer,
                                 .name = name,
                                 .run = run});
   }

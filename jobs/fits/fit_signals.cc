@@ -89,16 +89,13 @@ FitSignal make_fit_signal(const SignalSource& source) {
   signal.channel = channel.name;
   take_samples(source, shift_s, signal);
   set_windows(signal.measured, source, shift_s);
-  if (channel.low_pass_hz) {
-    signal.sensor.order = LowPassOrder::kSecond;
-    signal.sensor.cutoff_hz = *channel.low_pass_hz;
-  }
+  signal.sensor.cutoff_hz = channel.low_pass_hz.value_or(0.0);
   set_scale(signal, of.channels.contains(channel.name) ? of.channels.at(channel.name) : json::object());
   return signal;
 }
 
 std::string describe_scale_fault(const FitSignal& signal) {
-  if (std::isnormal(signal.measured.sigma.value_or(0.0))) return {};
+  if (std::isnormal(signal.measured.sigma)) return {};
   return "does not vary, or squares of its samples, noise or weight are no numbers: give another noise";
 }
 

@@ -38,11 +38,7 @@ struct FilterState {
 
 /// One step with the input u + slope (time since the step's begin): the response to the ramp, and a decaying
 /// difference from it.
-FilterState advance(FilterState state, double u, double slope, double dt, LowPassOrder order, double omega) {
-  if (order == LowPassOrder::kFirst) {
-    const double lag = slope / omega;
-    return {u + slope * dt - lag + (state.y - u + lag) * std::exp(-omega * dt), 0.0};
-  }
+FilterState advance(FilterState state, double u, double slope, double dt, double omega) {
   const double decay = omega / std::numbers::sqrt2;  // and the frequency of the oscillation, too
   const double lag = slope * std::numbers::sqrt2 / omega;
   const double cosine = state.y - u + lag;
@@ -55,17 +51,6 @@ FilterState advance(FilterState state, double u, double slope, double dt, LowPas
 
 bool is_in(const std::vector<TimeWindow>& windows, double t) {
   return std::ranges::any_of(windows, [t](const TimeWindow& w) { return t >= w.from_s && t <= w.to_s; });
-}
-
-double calc_sigma(const MeasuredSignal& measured) {
-  if (measured.sigma) return *measured.sigma;
-  const auto fitted = select_samples(measured, Samples::kFitted);
-  const auto n = static_cast<double>(fitted.size());
-  double mean = 0.0, squares = 0.0;
-  for (const std::size_t k : fitted) mean += measured.y[k] / n;
-  for (const std::size_t k : fitted) squares += (measured.y[k] - mean) * (measured.y[k] - mean) / n;
-  engine::require(squares > 0.0, "sigma", "given, as the measured signal does not vary");
-  return std::sqrt(squares);
 }
 
 /// Third divided difference of four samples, over its standard deviation where these are noise of
@@ -86,16 +71,15 @@ double calc_third_difference(std::span<const double> t, std::span<const double> 
 
 }  // namespace
 
-std::vector<double> filter_low_pass(std::span<const double> t, std::span<const double> y, LowPassOrder order,
-                                    double cutoff_hz) {
-  std::vector<double> filtered(y.begin(), y.end());
-  if (order == LowPassOrder::kNone || y.empty()) return filtered;
+std::vector<double> filter_low_pass(std::span<const double> t, std::span<const double> y, double cutoff_hz) {
   engine::require(cutoff_hz > 0.0, "cutoff_hz", "above 0");
+  std::vector<double> filtered(y.begin(), y.end());
+  if (y.empty()) return filtered;
   const double omega = 2.0 * std::numbers::pi * cutoff_hz;
   FilterState state{y[0], 0.0};
   for (std::size_t k = 1; k < y.size(); ++k) {
     const double dt = t[k] - t[k - 1];
-    if (dt > 0.0) state = advance(state, y[k - 1], (y[k] - y[k - 1]) / dt, dt, order, omega);
+    if (dt > 0.0) state = advance(state, y[k - 1], (y[k] - y[k - 1]) / dt, dt, omega);
     filtered[k] = state.y;
   }
   return filtered;
@@ -121,8 +105,9 @@ std::optional<std::vector<double>> predict_signal(std::span<const double> t, std
                                                   std::span<const double> measured_t) {
   std::vector<double> at(measured_t.begin(), measured_t.end());
   for (double& time : at) time -= sensor.delay_s;
-  auto signal =
-      interpolate(t, filter_low_pass(t, y, sensor.order, sensor.cutoff_hz), at, sensor.interpolation);
+  auto signal = sensor.cutoff_hz == 0.0
+                    ? interpolate(t, y, at, sensor.interpolation)
+                    : interpolate(t, filter_low_pass(t, y, sensor.cutoff_hz), at, sensor.interpolation);
   if (!signal) return std::nullopt;
   for (double& value : *signal) value = sensor.gain * value + sensor.offset;
   return signal;
@@ -156,12 +141,8 @@ std::optional<std::vector<double>> calc_residuals(const MeasuredSignal& measured
   for (const std::size_t k : selected) times.push_back(measured.t[k]);
   auto residuals = predict_signal(t, y, sensor, times);
   if (!residuals) return std::nullopt;
-  const double sigma = calc_sigma(measured);
-  for (std::size_t i = 0; i < selected.size(); ++i) {
-    const std::size_t k = selected[i];
-    const double weight = measured.weights.empty() ? 1.0 : measured.weights.at(k);
-    (*residuals)[i] = weight * ((*residuals)[i] - measured.y[k]) / sigma;
-  }
+  for (std::size_t i = 0; i < selected.size(); ++i)
+    (*residuals)[i] = ((*residuals)[i] - measured.y[selected[i]]) / measured.sigma;
   return residuals;
 }
 

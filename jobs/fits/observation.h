@@ -9,23 +9,21 @@
 namespace jobs {
 
 enum class Interpolation { kLinear, kCubic };
-enum class LowPassOrder { kNone, kFirst, kSecond };
 
 /// Sensor: y(t) = gain low_pass(channel)(t - delay) + offset. A negative gain turns the sign.
 struct SensorModel {
   double gain = 1.0;
   double offset = 0.0;  ///< in the unit of the measured signal
   double delay_s = 0.0;
-  LowPassOrder order = LowPassOrder::kNone;  ///< of Butterworth's filter
-  double cutoff_hz = 0.0;                    ///< > 0 unless the order is none
+  double cutoff_hz = 0.0;  ///< of the low-pass; 0: there is none
   Interpolation interpolation = Interpolation::kCubic;
 };
 
-/// Butterworth's low-pass of a signal that is linear between its samples, exactly, with unit gain at 0 Hz.
-/// Before its first sample the signal is constant.
-/// @param t  ascending, [s]; steps may differ  @param y  as many
+/// Butterworth's low-pass of order 2 of a signal that is linear between its samples, exactly, with unit gain
+/// at 0 Hz. Before its first sample the signal is constant.
+/// @param t  ascending, [s]; steps may differ  @param y  as many  @param cutoff_hz  > 0
 [[nodiscard]] std::vector<double> filter_low_pass(std::span<const double> t, std::span<const double> y,
-                                                  LowPassOrder order, double cutoff_hz);
+                                                  double cutoff_hz);
 
 /// Signal at given times. Cubic: Hermite's polynomials with the slopes of parabolas through three samples (de
 /// Boor (1978), A Practical Guide to Splines, ch. IV, Bessel).
@@ -48,10 +46,9 @@ struct TimeWindow {
 /// Measured samples. Samples in windows of both kinds are held back.
 struct MeasuredSignal {
   std::vector<double> t, y;
-  std::vector<double> weights;        ///< one a sample, or empty: all 1
   std::vector<TimeWindow> fitted;     ///< empty: all samples
   std::vector<TimeWindow> held_back;  ///< to judge the fit by
-  std::optional<double> sigma;        ///< of the noise; empty: the RMS of the fitted samples about their mean
+  double sigma = 1.0;                 ///< scale of its residuals: of the noise, over the weight
 };
 
 /// Standard deviation of the noise of samples: by the median of their third divided differences, so that
@@ -61,9 +58,8 @@ struct MeasuredSignal {
 enum class Samples { kFitted, kHeldBack };
 [[nodiscard]] std::vector<std::size_t> select_samples(const MeasuredSignal& measured, Samples which);
 
-/// weight (predicted - measured) / sigma at the selected samples.
+/// (predicted - measured) / sigma at the selected samples.
 /// @returns empty if the channel does not cover the times of the selected samples
-/// @throws engine::InvalidInput if there is no sigma and the measured signal does not vary
 [[nodiscard]] std::optional<std::vector<double>> calc_residuals(const MeasuredSignal& measured, Samples which,
                                                                 std::span<const double> t,
                                                                 std::span<const double> y,

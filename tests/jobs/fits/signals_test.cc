@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/errors.h"
 #include "jobs/fits/divergence.h"
 #include "jobs/fits/features.h"
 #include "jobs/fits/observation.h"
@@ -27,24 +26,21 @@ Sampled sine(double hz, double end_s) {
   return s;
 }
 
-// |H|^2 = 1 / (1 + (f / f_c)^(2 n)); phase -atan(w) and -atan2(sqrt(2) w, 1 - w^2).
+// |H|^2 = 1 / (1 + w^4) and the phase -atan2(sqrt(2) w, 1 - w^2), with w = f / f_c.
 TEST(LowPass, HasButterworthsResponse) {
   const double hz = 4.0, cutoff = 5.0, w = hz / cutoff;
   const Sampled s = sine(hz, 3.0);
-  for (const auto order : {jobs::LowPassOrder::kFirst, jobs::LowPassOrder::kSecond}) {
-    const bool first = order == jobs::LowPassOrder::kFirst;
-    const double gain = 1.0 / std::sqrt(1.0 + std::pow(w, first ? 2.0 : 4.0));
-    const double lag = first ? std::atan(w) : std::atan2(std::numbers::sqrt2 * w, 1.0 - w * w);
-    const auto filtered = jobs::filter_low_pass(s.t, s.y, order, cutoff);
-    for (std::size_t k = s.t.size() / 2; k < s.t.size();
-         ++k)  // a linear signal between samples: (2 pi f dt)^2 / 8
-      ASSERT_NEAR(filtered[k], gain * std::sin(kTwoPi * hz * s.t[k] - lag), 2e-4);
-  }
+  const double gain = 1.0 / std::sqrt(1.0 + std::pow(w, 4.0));
+  const double lag = std::atan2(std::numbers::sqrt2 * w, 1.0 - w * w);
+  const auto filtered = jobs::filter_low_pass(s.t, s.y, cutoff);
+  for (std::size_t k = s.t.size() / 2; k < s.t.size();
+       ++k)  // a linear signal between samples: (2 pi f dt)^2 / 8
+    ASSERT_NEAR(filtered[k], gain * std::sin(kTwoPi * hz * s.t[k] - lag), 2e-4);
 }
 
 TEST(LowPass, LeavesAConstantAsItIs) {
   const std::vector<double> t{0.0, 0.1, 0.4}, y{2.0, 2.0, 2.0};
-  for (const double value : jobs::filter_low_pass(t, y, jobs::LowPassOrder::kSecond, 3.0))
+  for (const double value : jobs::filter_low_pass(t, y, 3.0))
     EXPECT_NEAR(value, 2.0, 1e-15);
 }
 
@@ -67,23 +63,17 @@ TEST(Sensor, InterpolatesAParabolaExactlyByCubics) {
   EXPECT_NEAR((*linear)[1], 0.3, 1e-15);
 }
 
-TEST(MeasuredSignal, WeighsItsWindows) {
+TEST(MeasuredSignal, SelectsItsWindows) {
   const std::vector<double> t{0.0, 1.0, 2.0, 3.0}, y{0.0, 0.0, 0.0, 0.0};
-  jobs::MeasuredSignal measured{.t = t,
-                                .y = {1.0, -1.0, 1.0, 5.0},
-                                .weights = {1.0, 2.0, 1.0, 1.0},
-                                .fitted = {{0.0, 1.0}},
-                                .held_back = {{3.0, 9.0}},
-                                .sigma = {}};
+  const jobs::MeasuredSignal measured{.t = t,
+                                      .y = {1.0, -1.0, 1.0, 5.0},
+                                      .fitted = {{0.0, 1.0}},
+                                      .held_back = {{3.0, 9.0}},
+                                      .sigma = 0.5};
   const auto fitted = jobs::calc_residuals(measured, jobs::Samples::kFitted, t, y, {});
   ASSERT_TRUE(fitted);
-  EXPECT_EQ(*fitted, (std::vector<double>{-1.0, 2.0}));  // RMS about the mean: 1
-  measured.sigma = 0.5;
+  EXPECT_EQ(*fitted, (std::vector<double>{-2.0, 2.0}));
   EXPECT_EQ(*jobs::calc_residuals(measured, jobs::Samples::kHeldBack, t, y, {}), std::vector<double>{-10.0});
-  measured.sigma.reset();
-  measured.y = {1.0, 1.0, 1.0, 1.0};
-  EXPECT_THROW(static_cast<void>(jobs::calc_residuals(measured, jobs::Samples::kFitted, t, y, {})),
-               engine::InvalidInput);
 }
 
 // 20 cycles of 1 s: 3 sin(2 pi 10 t), with two samples of 50 in every fourth cycle, 20 ms apart.
