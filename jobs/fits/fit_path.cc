@@ -112,7 +112,7 @@ FitPath::Step FitPath::try_step(const Eigen::VectorXd& parts, Eigen::VectorXd& r
     stopped_ = true;
     return Step::kStopped;
   }
-  missing_.clear();  // neighbours in advance are no reason to wait
+  missing_.clear();  // the neighbours of speculate(): the path need not stop for them
   if (!told->has_value()) {
     ++failed_steps_;
     return Step::kFailed;

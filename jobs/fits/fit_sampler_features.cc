@@ -135,13 +135,15 @@ void FitSampler::set_basis(FitBasis basis) {
     base_points_.push_back(point_at(problem_, parts));
 }
 
-/// Features count by how much runs scatter: those of the design that diverge most, and later the best ones if
-/// they scatter more. Quiet ones would give each feature the same small scale.
+/// Features count by how much runs scatter. Before any search, replicates of the point of the design that
+/// diverges most give the first scale: quiet ones would give each feature the same small one. After a search,
+/// replicates of the best point may only raise the scale.
 FitSampler::Points FitSampler::run_scatter() {
-  const FitPoint& centre = population_ || diverging_.empty() ? best_ : diverging_;
+  const bool is_first = !population_;
+  const FitPoint& centre = is_first && !diverging_.empty() ? diverging_ : best_;
   Points points;
   for (std::size_t k = 1; k <= kScatterReplicates; ++k) points.push_back(replicate_of(problem_, centre, k));
-  if (!population_) points.insert(points.end(), base_points_.begin(), base_points_.end());
+  if (is_first) points.insert(points.end(), base_points_.begin(), base_points_.end());
   Points missing = missing_of(points);
   if (!missing.empty()) return missing;
   points.resize(kScatterReplicates);
@@ -150,10 +152,10 @@ FitSampler::Points FitSampler::run_scatter() {
   if (replicates.size() > 1) {
     set_feature_scale(replicates);
     sum_features();
-    if (!population_) choose_best(base_points_);
+    if (is_first) choose_best(base_points_);
   }
-  if (population_) begin_local(best_, 0);
-  else begin_global();
+  if (is_first) begin_global();
+  else begin_local(best_, 0);
   return {};
 }
 

@@ -79,9 +79,9 @@ void set_scatter(const Response& replicated, WholeBlocks& whole) {
   const auto count = static_cast<double>(replicated.size());
   whole.within = 0.0;
   for (const ReplicateStatistics& point : replicated) {
-    const double variance = *point.spread * *point.spread / count;
-    *whole.within += variance;
-    whole.of_means += variance / static_cast<double>(point.count);
+    const double share = *point.spread * *point.spread / count;
+    *whole.within += share;
+    whole.of_means += share / static_cast<double>(point.count);
   }
 }
 
