@@ -48,7 +48,9 @@ test("a decimal comma is understood, or named where it may be another comma", as
   await page.getByLabel("Clearance", { exact: true }).fill("0,25");
   await page.getByLabel("Clearance: kind of value", { exact: true }).selectOption("list");
   await row(page, "clearance_mm").getByText("“0,25” may be one number or two: write 0.25, or 0; 25").waitFor();
-  for (const [text, values] of [["0,25; 0,5", [0.25, 0.5]], ["0, 0.25", [0, 0.25]], ["0.1,0.2", [0.1, 0.2]], ["0,1,2", [0, 1, 2]], ["0.1 0.2", [0.1, 0.2]], ["0.1;0.2;", [0.1, 0.2]]]) {
+  await page.getByLabel("Clearance", { exact: true }).fill("2,5e-1 3,5e-1");
+  await row(page, "clearance_mm").getByText("“2,5e-1” may be one number or two: write 2.5e-1, or 2; 5e-1").waitFor();
+  for (const [text, values] of [["0,25; 0,5", [0.25, 0.5]], ["0, 0.25", [0, 0.25]], ["0.1,0.2", [0.1, 0.2]], ["0,1,2", [0, 1, 2]], ["0.1 0.2", [0.1, 0.2]], ["0.1;0.2;", [0.1, 0.2]], ["1e-1,2", [0.1, 2]], ["2,5e-1; 3,5e-1", [0.25, 0.35]]]) {
     await page.getByLabel("Clearance", { exact: true }).fill(text);
     assert.deepEqual((await shown(page)).sweep, { clearance_mm: values }, text);
   }

@@ -127,6 +127,8 @@ test("rows are sorted and filtered, and a faulty filter says how one is written"
   await filter("Peak contact force").fill("more");
   await page.getByText("“more” is no filter of numbers: write 5, > 5, ≤ 5 or 5 .. 10").waitFor();
   await page.getByText("11 of 10,000 jobs", { exact: true }).waitFor();
+  await filter("Peak contact force").fill("> 1,000");
+  await page.getByText("“1,000” may be 1 or 1000: write one of these").waitFor();
   await expectAccessible(page);
   await picture(page, "table_filtered");
   await page.getByRole("button", { name: "Filter" }).click();
@@ -139,12 +141,12 @@ test("filters take what people write", async () => {
   const passed = await page.evaluate(async () => {
     const { filterOf } = await import("/study/row_filter.js");
     const rows = [-1, 0.25, 5, 10].map((x) => ({ x }));
-    return ["5", "=5", "> 0,25", "≥0.25", "<=0.25", "−1 .. 5", "0.25 to 10", " "].map((text) => {
+    return ["5", "=5", "> 0,25", "≥0.25", "<=0.25", "−1 .. 5", "0.25 to 10", " ", "> 2,5e-1"].map((text) => {
       const passes = filterOf("x", text, true);
       return passes ? rows.filter(passes).map(({ x }) => x) : null;
     });
   });
-  assert.deepEqual(passed, [[5], [5], [5, 10], [0.25, 5, 10], [-1, 0.25], [-1, 0.25, 5], [0.25, 5, 10], null]);
+  assert.deepEqual(passed, [[5], [5], [5, 10], [0.25, 5, 10], [-1, 0.25], [-1, 0.25, 5], [0.25, 5, 10], null, [5, 10]]);
   await leave(page);
 });
 

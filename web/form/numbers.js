@@ -34,7 +34,7 @@ export function readList(text) {
   for (const piece of pieces) {
     const inside = piece.split(",");
     if (inside.length === 2 && text.includes(";")) values.push(decimal(piece));
-    else if (inside.length === 2 && !piece.includes(".") && /^[-−+]?\d+,\d+$/.test(piece)) {
+    else if (inside.length === 2 && !piece.includes(".") && /^[-−+]?\d+,\d+(e[-−+]?\d+)?$/i.test(piece)) {
       return { values: [],
         fault: `“${piece}” may be one number or two: write ${inside.join(".")}, or ${inside.join("; ")}` };
     } else values.push(...inside.map(readNumber));
