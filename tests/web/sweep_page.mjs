@@ -163,6 +163,30 @@ test("any number stands over any other in the scatter, whose click selects", asy
   await leave(page);
 });
 
+test("brushes on two axes of more than two thousand jobs select together", async () => {
+  const crowd = Array.from({ length: 2001 }, (_, k) => row(k, { crank_velocity_rad_s: k % 50, clearance_mm: Math.floor(k / 50), [metric]: k }));
+  const page = await visitRows(["crank_velocity_rad_s", "clearance_mm"], crowd);
+  const parallel = page.locator(".chart").nth(2);
+  await parallel.scrollIntoViewIfNeeded();
+  await parallel.locator("canvas").first().waitFor();
+  /** Brushes the upper half of the first or second of three axes; gives the number of selected jobs a while later. */
+  const brush = async (place) => {
+    const box = await parallel.boundingBox();
+    const [x, top, height] = [box.x + 60 + place * (box.width - 150) / 2, box.y + 50, box.height - 105];
+    await page.mouse.move(x, top + 2);
+    await page.mouse.down();
+    await page.mouse.move(x, top + height / 2, { steps: 10 });
+    await page.mouse.up();
+    await page.waitForTimeout(1000);  // many jobs are drawn late
+    return Number((await page.getByText(/ jobs selected$/).textContent()).replace(/\D/g, ""));
+  };
+  const first = await brush(0);
+  assert.ok(first > 800 && first < 1200, `${first} jobs of the upper half of an axis`);
+  const both = await brush(1);
+  assert.ok(both > 350 && both < 650, `${both} jobs of the upper halves of two axes`);
+  await leave(page);
+});
+
 test("six hundred jobs are read on a phone, in the dark and on a wide screen", async () => {
   for (const width of [390, 1280, 1920]) {
     const page = await visitRows(axes, rows, { width });

@@ -18,7 +18,7 @@ const someMetrics = ["peak_contact_force_n", "impact_count", "rms_slider_acceler
 export function parallelChart(element, sweep, signal) {
   /** @type {Api.Row[]} */
   let shown = [];
-  let brushing = false;
+  let isOwn = () => false;
   const around = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Axes" });
   element.replaceWith(around);
   around.append(element);
@@ -35,12 +35,18 @@ export function parallelChart(element, sweep, signal) {
   made.then(({ chart }) => chart.on("axisareaselected", () => {
     const [series] = chart.getModel().getSeries();
     const active = series.getRawIndicesByActiveState("active");
-    brushing = true;
-    sweep.selection.set(active.length === shown.length ? [] : active.map((index) => shown[index].job_id));
-    brushing = false;
+    const ids = active.length === shown.length ? [] : active.map((index) => shown[index].job_id);
+    const { rows, selection, view: { metric } } = sweep;
+    isOwn = () => sweep.rows === rows && sweep.view.metric === metric && selection.size === ids.length
+      && ids.every((id) => selection.has(id));
+    selection.set(ids);
   })).catch(() => {});
-  // While an axis is brushed its own lines are not drawn anew: that would end the brushing.
-  return made.then((chart) => ({ ...chart, draw: () => { if (!brushing) chart.draw(); } }));
+  // A selection that brushes have made is not drawn, however late that is asked for: drawing ends the brushing.
+  return made.then((chart) => ({ ...chart, draw: () => {
+    if (isOwn()) return;
+    isOwn = () => false;
+    chart.draw();
+  } }));
 }
 
 // Beyond the extremes there is room, from where a brush can begin.
