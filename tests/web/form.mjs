@@ -68,6 +68,25 @@ test("a form is emptied where its address is that of the empty one already", asy
   await leave(page);
 });
 
+test("an answer to a form that has been left is told, and opens no page", async () => {
+  const page = await visit("#/new");
+  const refusal = { status: 422, contentType: "application/problem+json", body: '{"detail": "too many jobs"}' };
+  for (const [answer, told] of [[{ status: 201, json: { id: "swp_given" } }, "Submitted: swp_given"], [refusal, "too many jobs"]]) {
+    const held = [];
+    await page.route("**/v1/sweeps", (route) => held.push(route));
+    await page.evaluate(() => { location.hash = "#/new"; });
+    await submit(page).click();
+    while (held.length === 0) await page.waitForTimeout(50);
+    await page.evaluate(() => { location.hash = "#/help"; });
+    await page.getByRole("heading", { level: 1, name: "Help" }).waitFor();
+    await held[0].fulfill(answer);
+    await page.getByText(told, { exact: true }).waitFor();
+    assert.match(page.url(), /#\/help$/);
+    await page.unroute("**/v1/sweeps");
+  }
+  await leave(page, /422/);
+});
+
 test("values with replicates follow the axes", async () => {
   const page = await visit("#/new?template=paper");
   await page.getByText("40 jobs", { exact: true }).waitFor();

@@ -250,11 +250,14 @@ export class RequestForm {
     this.isSending = true;
     this.drawSend();
     try {
-      location.hash = routeTo(this.route, (await this.ask(this.request)).id);
+      const { id } = await this.ask(this.request);
+      if (this.signal.aborted) notify(`Submitted: ${id}`);
+      else location.hash = routeTo(this.route, id);
     } catch (error) {
       this.isSending = false;
       this.drawSend();
-      this.refuse(error);
+      if (this.signal.aborted) notify(error.message, "trouble");
+      else this.refuse(error);
     }
   }
 

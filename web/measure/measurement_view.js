@@ -2,7 +2,7 @@
 // One measurement: its signals run by run, and what is known of sensors and runs.
 import { deleteMeasurement, findMeasurement, fits, measurementDataUrl } from "/core/api.js";
 import { confirmed } from "/core/dialog.js";
-import { choice, h, tableCard } from "/core/dom.js";
+import { choice, h, notify, tableCard } from "/core/dom.js";
 import { bytes, moment, number, plural, titleOf } from "/core/format.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { lineColour } from "/core/theme.js";
@@ -35,7 +35,7 @@ export async function showMeasurement(main, id, query, signal) {
   const first = Math.min(Number(query.get("run")) || 0, measurement.runs.length - 1);
   const runs = measurement.runs.map((run, index) => [String(index),
     `${index}: ${knownText(run) || plural(run.samples, "sample")}`]);
-  main.replaceChildren(headOf(measurement, name, csv, trouble), trouble, await usersOf(id, signal),
+  main.replaceChildren(headOf(measurement, name, csv, trouble, signal), trouble, await usersOf(id, signal),
     measurement.runs.length > 1 ? h("p", { class: "actions" }, choice("Run", runs, String(first),
       (run) => { rememberQuery({ run }); showRun(Number(run)); })) : "", plots, channelTable(measurement),
     runTable(measurement));
@@ -48,15 +48,16 @@ export async function showMeasurement(main, id, query, signal) {
  * @param {string} name
  * @param {HTMLElement} csv
  * @param {HTMLElement} trouble
+ * @param {AbortSignal} signal
  */
-function headOf({ id, created_at: created, samples, duration_s: duration, bytes: size }, name, csv, trouble) {
+function headOf({ id, created_at: created, samples, duration_s: duration, bytes: size }, name, csv, trouble, signal) {
   return h("div", { class: "head" }, h("div", {}, h("h1", {}, name),
     h("p", { class: "quiet" }, `${plural(samples, "sample")}, ${number(duration)} s, ${bytes(size)}; stored `
       + `${moment(created)}`)),
   h("p", { class: "actions" },
     h("a", { class: "button main", href: routeTo("fits", "new", { measurement: id }) }, "Fit"), csv,
     h("button", { class: "danger", onclick: () => removeMeasurement(id, name, trouble,
-      () => { location.hash = routeTo("measurements"); }) }, "Delete")));
+      () => { if (!signal.aborted) location.hash = routeTo("measurements"); }) }, "Delete")));
 }
 
 /// Deletes a measurement if that is wanted; a refusal is told at its place.
@@ -73,8 +74,10 @@ export async function removeMeasurement(id, name, trouble, done) {
     await deleteMeasurement(id);
     done();
   } catch (error) {
+    const told = `“${name}” cannot be deleted: ${error.message}`;
+    if (!trouble.isConnected) notify(told, "trouble");
     const user = /fit_\w+/.exec(error.message)?.[0];
-    trouble.replaceChildren(`“${name}” cannot be deleted: ${error.message}. `,
+    trouble.replaceChildren(`${told}. `,
       user ? h("a", { href: routeTo("fits", user) }, "Open the fit") : "");
   }
 }

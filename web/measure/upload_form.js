@@ -3,7 +3,7 @@
 // finds.
 import { Refusal, requestSchemas } from "/core/api.js";
 import { loadCharts } from "/core/charts.js";
-import { choice, freshId, h } from "/core/dom.js";
+import { choice, freshId, h, notify } from "/core/dom.js";
 import { plural } from "/core/format.js";
 import { debounce } from "/core/live.js";
 import { routeTo } from "/core/route.js";
@@ -170,9 +170,12 @@ class UploadForm {
     this.isSending = true;
     this.changed();
     try {
-      location.hash = routeTo("measurements", (await sendDraft(draft)).id);
+      const { id } = await sendDraft(draft);
+      if (this.signal.aborted) notify(`Submitted: ${id}`);
+      else location.hash = routeTo("measurements", id);
     } catch (error) {
-      this.refuse(error);
+      if (this.signal.aborted) notify(error.message, "trouble");
+      else this.refuse(error);
     }
     this.isSending = false;
     this.send.disabled = false;

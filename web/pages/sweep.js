@@ -317,7 +317,7 @@ export class SweepPage {
     if (!await confirmed(`Delete ${this.sweep.name || this.sweep.id} with its results?`, "Delete")) return;
     try {
       await deleteSweep(this.sweep.id);
-      location.hash = "#/";
+      if (!this.signal.aborted) location.hash = "#/";
     } catch (error) {
       notify(error.message, "trouble");
     }

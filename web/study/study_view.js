@@ -188,7 +188,7 @@ export class StudyView {
     this.isRemoved = true;  // a reload that is still to come would not find it
     try {
       await this.kind.api.remove(this.study.id);
-      location.hash = routeTo(this.kind.route);
+      if (!this.signal.aborted) location.hash = routeTo(this.kind.route);
     } catch (error) {
       this.isRemoved = false;
       notify(error.message, "trouble");
