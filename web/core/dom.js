@@ -129,3 +129,7 @@ export function notify(text, kind = "") {
   clearTimeout(noticeTimer);
   noticeTimer = setTimeout(() => { notice.textContent = ""; }, 8000);
 }
+
+/// Tells a trouble, if there is one.
+/** @param {string} text */
+export const tellTrouble = (text) => text && notify(text, "trouble");

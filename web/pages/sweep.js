@@ -4,7 +4,7 @@ import { cancelSweep, deleteSweep, findResults, findSweep, parameterSchema, repo
   retrySweep } from "/core/api.js";
 import { saveButtons, warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
-import { h, notify, setSeen } from "/core/dom.js";
+import { h, notify, setSeen, tellTrouble } from "/core/dom.js";
 import { plural, span } from "/core/format.js";
 import { follow, inTurn, isUnderWay, latest, pause, retryWhileUnreachable, throttle } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
@@ -31,7 +31,6 @@ import { ResultTable } from "/study/table.js";
 
 const reloadMs = 1500;
 const lookMs = 4000;
-const tell = (text) => text && notify(text, "trouble");
 
 /** @param {HTMLElement} main  @param {Visit} view */
 export async function show(main, { id, query, signal }) {
@@ -177,7 +176,7 @@ export class SweepPage {
         this.failures.doubt();
         await this.update();
       } catch (error) {
-        if (error.status === 404) tell("This sweep has been deleted.");
+        if (error.status === 404) tellTrouble("This sweep has been deleted.");
         if (error.name === "AbortError" || error.status === 404) return;
       }
     }
@@ -209,12 +208,12 @@ export class SweepPage {
       [this.sweep, this.rows] = await retryWhileUnreachable(() => {
         start = performance.now();
         return Promise.all([findSweep(this.sweep.id, this.signal), findResults(this.sweep.id, {}, this.signal)]);
-      }, tell, this.signal);
+      }, tellTrouble, this.signal);
       this.drawHead();
       this.drawAll();
       this.reloadTook = performance.now() - start;
     } catch (error) {
-      if (error.name !== "AbortError") tell(error.message);
+      if (error.name !== "AbortError") tellTrouble(error.message);
       return;
     }
     await this.learnFailures();
@@ -222,9 +221,9 @@ export class SweepPage {
 
   async tryLearnFailures() {
     try {
-      if (await this.failures.learn(this.sweep.id, this.rows, tell, this.signal)) this.drawTexts();
+      if (await this.failures.learn(this.sweep.id, this.rows, tellTrouble, this.signal)) this.drawTexts();
     } catch (error) {
-      if (error.name !== "AbortError") tell(error.message);
+      if (error.name !== "AbortError") tellTrouble(error.message);
     }
   }
 
@@ -338,7 +337,7 @@ export class SweepPage {
       if (id) others = await findComparison(id, current);
     } catch (error) {
       if (error.name === "AbortError") throw error;
-      tell(`Not beside this sweep: ${error.message}`);
+      tellTrouble(`Not beside this sweep: ${error.message}`);
     }
     this.others = others;
     const picker = this.compare.querySelector("select");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One fit: values with intervals, how they were found, and measured over predicted signals.
 import { findFitSignals, fits } from "/core/api.js";
-import { choice, h } from "/core/dom.js";
+import { choice, h, tellTrouble } from "/core/dom.js";
 import { number, plural } from "/core/format.js";
+import { retryWhileUnreachable } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 import { answerOf, correlationCard, errorsCard, lostOf, stageNames } from "/study/fit_answer.js";
 import { computed, fitConvergence, fitMisfit, runningBest } from "/study/fit_points.js";
@@ -72,13 +73,20 @@ export class FitView extends StudyView {
     for (const parameter of this.study.parameters) parameter.value = Number(best[parameter.path]);
   }
 
+  /// Signal and best point of the samples that are to be shown; empty if there is no signal.
+  #wantedSamples() {
+    return this.shownSignal in this.study.signals ? JSON.stringify([this.shownSignal, this.study.best?.point]) : "";
+  }
+
   /// Samples of the signal that is shown, unless they are those of the best point already.
   async findSamples() {
-    const shown = this.study.signals[this.shownSignal];
-    const wanted = shown ? JSON.stringify([this.shownSignal, this.study.best?.point]) : "";
+    const wanted = this.#wantedSamples();
     if (wanted === this.samplesOf) return;
-    this.samples = shown ? await findFitSignals(this.study.id,
+    const shown = this.study.signals[this.shownSignal];
+    const samples = shown ? await findFitSignals(this.study.id,
       { measurement_id: shown.measurement_id, run: shown.run, channel: shown.channel }, this.signal) : [];
+    if (wanted !== this.#wantedSamples()) return;  // meanwhile others are asked for
+    this.samples = samples;
     this.samplesOf = wanted;
   }
 
@@ -99,10 +107,10 @@ export class FitView extends StudyView {
     if (signals.length === 0 || this.signalPicker.hasChildNodes()) return;
     const names = signals.map((signal, index) => [String(index),
       nameOfSignal(signal, signals, measurements)]);
-    this.signalPicker.replaceChildren(choice("Signal", names, String(this.shownSignal), async (index) => {
+    this.signalPicker.replaceChildren(choice("Signal", names, String(this.shownSignal), (index) => {
       this.shownSignal = Number(index);
-      await this.findSamples();
-      this.drawn[2]?.draw();
+      retryWhileUnreachable(() => this.findSamples(), tellTrouble, this.signal).then(() => this.drawn[2]?.draw())
+        .catch((error) => { if (error.name !== "AbortError") tellTrouble(error.message); });
     }), this.predictedBy);
   }
 
