@@ -8,6 +8,7 @@ import { choice, h, notify } from "/core/dom.js";
 import { exact, number } from "/core/format.js";
 import { latest } from "/core/live.js";
 import { colour, lineColour } from "/core/theme.js";
+import { faultOfNumber, numberOr } from "/form/numbers.js";
 
 /**
  * @param {Api.Job} job
@@ -46,8 +47,12 @@ async function fill(body, job, joints, signal) {
   const field = (label, key) => {
     const input = h("input",
       { type: "text", inputmode: "decimal", value: view[key],
-        onchange: () => { view[key] = input.value.trim(); load()
-          .catch((error) => notify(error.message, "trouble")); } });
+        onchange: () => {
+          const fault = faultOfNumber(input.value);
+          if (fault) return notify(`${label}: ${fault}`, "trouble");
+          view[key] = numberOr(input.value, "");
+          return load().catch((error) => notify(error.message, "trouble"));
+        } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
   };
   body.replaceChildren(

@@ -24,6 +24,19 @@ export function readNumber(text) {
   return doubtOf(text) ? NaN : decimal(text);
 }
 
+/// The number in a field, or the usual value where the field is empty; NaN for anything else.
+/**
+ * @template Usual
+ * @param {string} text
+ * @param {Usual} usual
+ * @returns {number | Usual}
+ */
+export const numberOr = (text, usual) => (text.trim() === "" ? usual : readNumber(text));
+
+/// Fault of a field that may have a number; empty if there is none.
+/** @param {string} text */
+export const faultOfNumber = (text) => (Number.isFinite(numberOr(text, 0)) ? "" : doubtOf(text) || "must be a number");
+
 /// Numbers of a list. Commas before a space separate, as do semicolons and spaces; between digits they are
 /// decimal, where semicolons separate, and separate, where numbers have decimal points or there are several.
 /** @param {string} text  @returns {{ values: number[], fault: string }} */

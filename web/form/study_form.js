@@ -5,7 +5,7 @@ import { h } from "/core/dom.js";
 import { nameOf, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
 import { allowed, fieldsOf } from "/form/fields.js";
-import { doubtOf, readNumber } from "/form/numbers.js";
+import { faultOfNumber, readNumber } from "/form/numbers.js";
 import { buildRequest, readRequest } from "/form/request.js";
 import { RequestForm } from "/form/request_form.js";
 
@@ -91,9 +91,9 @@ export class StudyForm extends RequestForm {
 /// Puts a number into an object, unless its text is empty. @param path  by which a fault of it is told
 export function addNumber(text, key, path, object, problems) {
   if (!text?.trim()) return;
-  const value = readNumber(text);
-  if (Number.isFinite(value)) object[key] = value;
-  else problems.push({ path, detail: doubtOf(text) || "must be a number" });
+  const detail = faultOfNumber(text);
+  if (detail) problems.push({ path, detail });
+  else object[key] = readNumber(text);
 }
 
 /// A number in words: what it is, what is allowed, and what it is if it is left out.

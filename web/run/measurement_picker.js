@@ -3,6 +3,8 @@
 import { findMeasurement, listMeasurements } from "/core/api.js";
 import { choice, h, notify } from "/core/dom.js";
 import { titleOf } from "/core/format.js";
+import { latest } from "/core/live.js";
+import { faultOfNumber, numberOr } from "/form/numbers.js";
 
 const mostOffered = 100;
 
@@ -18,16 +20,13 @@ export async function measurementPicker(columns, chosen, signal) {
   const fitting = items.filter(({ channels }) => channels.some(({ name }) => columns.includes(name)));
   if (fitting.length === 0) return [];
   const details = h("span", { class: "actions" });
+  const show = latest(async (current, /** @type {string} */ id) => {
+    details.replaceChildren();
+    if (id) details.replaceChildren(...detailsOf(await findMeasurement(id, current), columns, chosen));
+  }, signal);
   const pick = choice("Overlay measurement",
-    [["", "choose …"], ...fitting.map(({ id, name }) => [id, name || id])], "", async (id) => {
-      details.replaceChildren();
-      if (!id) return;
-      try {
-        details.replaceChildren(...detailsOf(await findMeasurement(id, signal), columns, chosen));
-      } catch (error) {
-        if (error.name !== "AbortError") notify(error.message, "trouble");
-      }
-    });
+    [["", "choose …"], ...fitting.map(({ id, name }) => [id, name || id])], "",
+    (id) => show(id).catch((error) => notify(error.message, "trouble")));
   return [pick, details];
 }
 
@@ -41,5 +40,9 @@ function detailsOf({ id, runs, channels }, columns, chosen) {
   return [...run, choice("Channel", names.map((name) => [name, titleOf(name)]), names[0],
     (channel) => { overlay.channel = channel; }),
   h("label", { class: "choice" }, h("span", {}, "Shift [s]"), shift),
-  h("button", { onclick: () => chosen({ ...overlay, shift: Number(shift.value) || 0 }) }, "Lay over")];
+  h("button", { onclick: () => {
+    const fault = faultOfNumber(shift.value);
+    if (fault) notify(`Shift: ${fault}`, "trouble");
+    else chosen({ ...overlay, shift: numberOr(shift.value, 0) });
+  } }, "Lay over")];
 }
