@@ -75,6 +75,48 @@ test("cells in quotes are read as the service reads them", async () => {
   await leave(page);
 });
 
+test("the numbers of a sensor are read as people type them, or named where they are none", async () => {
+  const page = await visit("#/measurements/new");
+  const read = await page.evaluate(async () => {
+    const { faultsOf, sensorOf } = await import("/measure/measurement_request.js");
+    const usual = { column: "acc", source: "acc", name: "x_m", isUsed: true, sign: "1", gain: "1", offset: "0", delay_s: "0", low_pass_hz: "" };
+    return [{ gain: "" }, { sign: "−1", gain: "0,5" }, { delay_s: "late" }, { gain: "1,200" }].map((typed) => {
+      const entry = { ...usual, ...typed };
+      const { sign, gain } = sensorOf(entry);
+      return [sign, String(gain), faultsOf({ channels: [entry], time: "t" }).map(([, fault]) => fault).join()];
+    });
+  });
+  assert.deepEqual(read, [[1, "1", ""], [-1, "0.5", ""], [1, "1", "Delay: must be a number"],
+    [1, "NaN", "Gain: “1,200” may be 1.2 or 1200: write one of these"]]);
+  await leave(page);
+});
+
+test("the files that were chosen last are uploaded, and the run that is drawn stays chosen", async () => {
+  const page = await visit("#/measurements/new");
+  const csv = (name, times) => ({ name, mimeType: "text/csv",
+    buffer: Buffer.from(["time_s,t_2_s,acc", ...times.map((time) => `${time},${2 * time},1`)].join("\n")) });
+  await page.evaluate(() => {
+    const { text } = Blob.prototype;
+    Blob.prototype.text = async function () {
+      if (this.name === "large.csv") await new Promise((resolve) => { window.letGo = resolve; });
+      return text.call(this);
+    };
+  });
+  const files = page.getByLabel("Files");
+  await files.setInputFiles(csv("large.csv", [0, 1, 2, 3]));
+  await page.waitForFunction(() => window.letGo);
+  await files.setInputFiles([csv("a.csv", [0, 1]), csv("b.csv", [0, 1, 2])]);
+  await page.getByText("2 runs, 2 channels, 2 samples in this run").waitFor();
+  await page.evaluate(() => window.letGo());
+  await page.waitForTimeout(500);
+  await page.getByRole("combobox", { name: /^Run/ }).selectOption("1");
+  await page.getByText("2 runs, 2 channels, 3 samples in this run").waitFor();
+  await page.getByRole("combobox", { name: /^Time/ }).selectOption("t_2_s");
+  assert.equal(await page.getByRole("combobox", { name: /^Run/ }).inputValue(), "1");
+  assert.equal(await page.getByLabel("Name", { exact: true }).inputValue(), "a.csv");
+  await leave(page);
+});
+
 test("a fit finds the clearance of a measurement", { timeout: 5 * minutes }, async () => {
   const page = await visit(`#/measurements/${measurement}`);
   await page.getByRole("link", { name: "Fit", exact: true }).click();
@@ -118,8 +160,12 @@ test("a fit finds the clearance of a measurement", { timeout: 5 * minutes }, asy
   await page.getByRole("link", { name: "Best job" }).click();
   await page.getByText("measured: rig.csv").waitFor();
   await page.getByRole("combobox", { name: "Overlay measurement" }).selectOption(measurement);
-  await page.getByLabel("Shift [s]").fill("0.01");
+  await page.getByLabel("Shift [s]").fill("later");
   await page.getByRole("button", { name: "Lay over" }).click();
+  await page.getByText("Shift: must be a number", { exact: true }).waitFor();
+  await page.getByLabel("Shift [s]").fill("0,01");
+  await page.getByRole("button", { name: "Lay over" }).click();
+  await page.waitForURL((address) => decodeURIComponent(address.href).includes(":slider_acceleration_m_s2:0.01"));
   await page.getByText("measured: rig.csv").nth(1).waitFor();
   await page.getByRole("link", { name: "without them" }).click();
   await page.getByText("measured: rig.csv").first().waitFor({ state: "detached" });

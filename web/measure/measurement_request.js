@@ -2,6 +2,8 @@
 // From what stands in the form of an upload to a request: the file as it is, or JSON where the form says
 // more.
 import { submitMeasurement } from "/core/api.js";
+import { nameOf } from "/core/format.js";
+import { faultOfNumber, numberOr } from "/form/numbers.js";
 
 /** @typedef {import("/measure/read_files.js").Draft} Draft */
 /** @typedef {import("/measure/read_files.js").ChannelEntry} ChannelEntry */
@@ -13,16 +15,22 @@ const types = { csv: "text/csv", npz: "application/x-npz" };
 export const usedChannels = ({ channels, time }) =>
   channels.filter(({ column, isUsed }) => isUsed && column !== time);
 
+/// Numbers of a sensor where nothing is entered.
+const usual = { sign: 1, gain: 1, offset: 0, delay_s: 0, low_pass_hz: null };
+const sensorKeys = /** @type {(keyof typeof usual)[]} */ (Object.keys(usual));
+
+/// Numbers of the sensor of a channel; NaN where the entry is none.
+/** @param {ChannelEntry} entry  @returns {Record<string, any>} */
+export const sensorOf = (entry) =>
+  Object.fromEntries(sensorKeys.map((key) => [key, numberOr(entry[key], usual[key])]));
+
 /// A channel as JSON, without what is as usual.
 /** @param {ChannelEntry} entry */
-function channelOf({ source, name, sign, gain, offset, delay_s: delay, low_pass_hz: low }) {
-  /** @type {Record<string, [string, number | string]>} */
-  const numbers = { sign: [sign, 1], gain: [gain, 1], offset: [offset, 0], delay_s: [delay, 0],
-    low_pass_hz: [low, ""] };
-  const given = Object.entries(numbers)
-    .filter(([, [text, usual]]) => text.trim() !== "" && Number(text) !== usual);
-  return { name: name.trim(), ...(source === name.trim() ? {} : { column: source }),
-    ...Object.fromEntries(given.map(([key, [text]]) => [key, Number(text)])) };
+function channelOf(entry) {
+  const { source } = entry;
+  const name = entry.name.trim();
+  const given = Object.entries(sensorOf(entry)).filter(([key, value]) => value !== usual[key]);
+  return { name, ...(source === name ? {} : { column: source }), ...Object.fromEntries(given) };
 }
 
 const isPlain = (entry) => Object.keys(channelOf(entry)).every((key) => key === "name" || key === "column");
@@ -61,9 +69,9 @@ export function faultsOf(draft) {
   const used = usedChannels(draft);
   return used.flatMap((entry) => {
     const twice = used.filter(({ name }) => name.trim() === entry.name.trim()).length > 1;
-    const numbers = [entry.gain, entry.offset, entry.delay_s, entry.low_pass_hz];
+    const faulty = sensorKeys.find((key) => faultOfNumber(entry[key]));
     const fault = twice ? "two channels have this name"
-      : numbers.some((text) => !Number.isFinite(Number(text))) ? "must be numbers" : "";
+      : faulty ? `${nameOf(faulty)}: ${faultOfNumber(entry[faulty])}` : "";
     return fault ? [/** @type {[number, string]} */ ([draft.channels.indexOf(entry), fault])] : [];
   });
 }

@@ -8,7 +8,7 @@ import { plural } from "/core/format.js";
 import { debounce } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 import { channelField } from "/measure/channel_field.js";
-import { faultsOf, sendDraft, usedChannels } from "/measure/measurement_request.js";
+import { faultsOf, sendDraft, sensorOf, usedChannels } from "/measure/measurement_request.js";
 import { previewChart } from "/measure/preview.js";
 import { readFiles } from "/measure/read_files.js";
 
@@ -25,6 +25,8 @@ export function showUpload(main, signal) {
 class UploadForm {
   /** @type {import("/measure/read_files.js").Draft | null} */
   draft = null;
+  /** @type {File[]} */
+  files = [];  // that were chosen last
   shownRun = 0;
   isSending = false;
   fields = h("div");
@@ -67,12 +69,16 @@ class UploadForm {
   /** @param {File[]} files */
   async read(files) {
     if (files.length === 0) return;
+    this.files = files;
     this.trouble.replaceChildren();
     try {
-      this.draft = await readFiles(files);
+      const draft = await readFiles(files);
+      if (files !== this.files) return;  // meanwhile others have been chosen
+      this.draft = draft;
       this.shownRun = 0;
       this.drawFields();
     } catch (error) {
+      if (files !== this.files) return;
       this.draft = null;
       this.fields.replaceChildren();
       this.trouble.textContent = error.message;
@@ -99,7 +105,7 @@ class UploadForm {
       + "its unit."),
     ...channels.filter((element) => element !== null), this.runFields());
     const runs = draft.runs.map((run, index) => [String(index), run.name]);
-    this.runPicker.replaceChildren(draft.runs.length > 1 ? choice("Run", runs, "0",
+    this.runPicker.replaceChildren(draft.runs.length > 1 ? choice("Run", runs, String(this.shownRun),
       (run) => { this.shownRun = Number(run); this.drawPreview(); }) : "");
   }
 
@@ -159,9 +165,10 @@ class UploadForm {
     if (!draft) return null;
     const { columns } = draft.runs[this.shownRun];
     return { time: columns[draft.time],
-      signals: usedChannels(draft).map(({ column, name, sign, gain, offset }) =>
-      ({ name: name.trim(),
-        values: columns[column].map((x) => Number(sign) * Number(gain) * x + Number(offset)) })) };
+      signals: usedChannels(draft).map((entry) => {
+        const { sign, gain, offset } = sensorOf(entry);
+        return { name: entry.name.trim(), values: columns[entry.column].map((x) => sign * gain * x + offset) };
+      }) };
   }
 
   async submit() {
