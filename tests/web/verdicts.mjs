@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-import { ask, endVisits, expectAccessible, leave, picture, runSweep, visit } from "./visitor.mjs";
+import { drawn } from "./given.mjs";
+import { ask, endVisits, expectAccessible, leave, picture, runSweep, textOf, url, visit } from "./visitor.mjs";
 
 after(endVisits);
 const short = { duration_s: 0.3, run_up_s: 0.1 };
@@ -68,6 +69,25 @@ test("a limit that was not exceeded says at how many values was looked, and has 
   await other.getByRole("columnheader", { name: "OK in all up to [mm]" }).waitFor();
   assert.equal(await other.getByText("One run at each value").count(), 0);
   await leave(other);
+});
+
+test("the line of limits has a gap and a cross where there is no limit", async () => {
+  const limit = (velocity, verdict, value) => ({ crank_velocity_rad_s: velocity, verdict, limit: value, limit_beyond: value === null ? null : value + 0.01,
+    band_from: null, band_to: null, falls: [], points: [], evaluations: 3, lost_reason: null, monotonic: true });
+  const search = { id: "sch_given", sweep_id: "swp_given", name: "given", state: "succeeded", error: null, progress: 1, counts: { succeeded: 9, total: 9 },
+    axes: ["crank_velocity_rad_s"], parameter: "clearance_mm", metric: "max_penetration_um", bound: 4, quantile: 0.9,
+    request: { over: { clearance_mm: { from: 0.05, to: 0.3 } } },
+    limits: [limit(10, "found", 0.2), limit(8, "always_exceeded", null), limit(5, "found", 0.1), limit(12, "lost", null)] };
+  const page = await visit("#/help");
+  await page.route("**/v1/searches/sch_given", (route) => route.fulfill({ json: search }));
+  await page.goto(`${url}/#/searches/sch_given`);
+  await page.locator(".chart canvas").nth(1).waitFor();
+  const { series } = await drawn(page, 0);
+  assert.deepEqual(series[1].map(({ value }) => value), [[5, 0.1], [8, "-"], [10, 0.2], [12, "-"]]);
+  const { text } = await textOf(page, () => page.getByRole("button", { name: "SVG" }).first().click());
+  assert.equal(text.split(">×<").length - 1, 2, "crosses");
+  await picture(page, "limit_gap");
+  await leave(page);
 });
 
 test("the paper's statements say that they stand on one run each", async () => {

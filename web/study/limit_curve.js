@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The limit over the first numeric axis, a line for each combination of the others; between "all within" and "none
-// within" the band.
+// within" the band. Where there is no limit, the line has a gap and the foot of the chart a cross.
 import { axisLook, makeChart } from "/core/charts.js";
 import { nameOf, number, plural, pointOf, titleOf } from "/core/format.js";
 import { lineColour } from "/core/theme.js";
@@ -15,6 +15,17 @@ export const hasReplicates = ({ request }) => Number(request.replicates?.count ?
 export const fallsShown = (search, { falls }) =>
   falls.filter((fall) => hasReplicates(search) || fall.within_again);
 
+/** @type {Record<Api.Limit["verdict"], string>} */
+const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded at",
+  always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
+
+/// Verdict on a limit; "not exceeded" with the number of values at which that was looked at.
+/** @type {(limit: Api.Limit) => string} */
+export const verdictOf = ({ verdict, lost_reason: reason, points }) =>
+  verdicts[verdict] + (verdict === "never_exceeded"
+    ? ` ${points.length === 1 ? "the value" : `any of the ${points.length} values`} looked at` : "")
+  + (reason === "no_value" ? " (the metric does not apply)" : reason ? ` (${reason})` : "");
+
 /**
  * @param {HTMLElement} element
  * @param {import("/study/limit_view.js").LimitView} view
@@ -27,8 +38,8 @@ export function limitCurve(element, view, signal) {
 
 /** @param {Api.Search} search */
 function optionOf(search) {
-  const drawn = search.limits.filter((limit) => limit.limit !== null);
-  if (drawn.length === 0) return null;
+  if (search.limits.every(({ limit }) => limit === null)) return null;
+  const drawn = [...search.limits];
   const numeric = search.axes.find((axis) => drawn.every((limit) => typeof limit[axis] === "number"));
   const x = numeric ?? search.axes[0];
   if (numeric) drawn.sort((a, b) => a[numeric] - b[numeric]);
@@ -60,19 +71,22 @@ function optionOf(search) {
 function lineSeries(name, limits, index, at) {
   return { name, type: "line", color: lineColour(index), symbolSize: 9, z: 3,
     data: limits.map((limit) =>
-      ({ value: [at(limit), limit.limit], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
+      ({ value: [at(limit), limit.limit ?? "-"], symbol: limit.verdict === "found" ? "circle" : "emptyTriangle" })) };
 }
 
 /// Bar beside a limit: the band between "all replicates" and "none", or the stretch in which the limit of
-/// single runs lies.
+/// single runs lies. A cross where a search has ended without a limit.
 function bandSeries(name, limits, index, at, isBand) {
   const endsOf = (limit) => (isBand ? [limit.band_from ?? limit.limit, limit.band_to ?? limit.limit_beyond
     ?? limit.limit]
     : [limit.limit, limit.limit_beyond ?? limit.limit]);
   return { name, type: "custom", color: lineColour(index),
     data: limits.map((limit) => [at(limit), ...endsOf(limit)]), encode: { x: 0, y: [1, 2] },
-    renderItem: (_, api) => {
+    renderItem: ({ coordSys, dataIndex }, api) => {
       const [x, low] = api.coord([api.value(0), api.value(1)]);
+      const { limit, verdict } = limits[dataIndex];
+      if (limit === null) return verdict === "open" ? null : { type: "text", x, y: coordSys.y + coordSys.height,
+        style: { text: "×", fill: api.visual("color"), font: "20px system-ui", align: "center", verticalAlign: "bottom" } };
       const [, high] = api.coord([api.value(0), api.value(2)]);
       return { type: "rect", shape: { x: x - 6, y: high, width: 12, height: low - high },
         style: { fill: api.visual("color"), opacity: 0.3 } };
@@ -82,6 +96,7 @@ function bandSeries(name, limits, index, at, isBand) {
 /** @param {Api.Search} search  @param {Api.Limit} limit */
 function textOf(search, limit) {
   const where = search.axes.map((axis) => pointOf(axis, limit[axis])).join(", ");
+  if (limit.limit === null) return `${where}\n${verdictOf(limit)}`;
   const beyond = limit.limit_beyond === null
     ? `not exceeded at any of ${plural(limit.points.length, "value")} up to there`
     : `exceeded at ${number(limit.limit_beyond)}`;

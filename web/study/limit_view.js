@@ -4,20 +4,9 @@ import { searches } from "/core/api.js";
 import { choice, h } from "/core/dom.js";
 import { exact, number, plural, pointOf, titleOf, unitOf } from "/core/format.js";
 import { routeTo } from "/core/route.js";
-import { fallsShown, hasReplicates, limitCurve } from "/study/limit_curve.js";
+import { fallsShown, hasReplicates, limitCurve, verdictOf } from "/study/limit_curve.js";
 import { limitPoints } from "/study/limit_points.js";
 import { StudyView } from "/study/study_view.js";
-
-/** @type {Record<Api.Limit["verdict"], string>} */
-const verdicts = { open: "open", found: "found", never_exceeded: "not exceeded at",
-  always_exceeded: "exceeded from the start", lost: "undetermined: a job has no value" };
-
-/// Verdict on a limit; "not exceeded" with the number of values at which that was looked at.
-/** @type {(limit: Api.Limit) => string} */
-const verdictOf = ({ verdict, lost_reason: reason, points }) =>
-  verdicts[verdict] + (verdict === "never_exceeded"
-    ? ` ${points.length === 1 ? "the value" : `any of the ${points.length} values`} looked at` : "")
-  + (reason === "no_value" ? " (the metric does not apply)" : reason ? ` (${reason})` : "");
 
 /// The combination of a limit: "10 rad/s, flexible".
 /** @type {(search: Api.Search, limit: Api.Limit) => string} */
