@@ -189,6 +189,22 @@ test("a job that keeps its metrics alone shows them", async () => {
   await leave(page);
 });
 
+test("jobs are told apart by the mass of a link, and parameters of links and drives are listed", async () => {
+  const crank = { law: "velocity_table", times_s: [0, 2], velocities_rad_s: [0, 10] };
+  const sweep = await runSweep({ parameters: { duration_s: 0.02, run_up_s: 0.01, crank_drive: crank }, sweep: { "links.1,3.mass_kg": [0.3, 0.4] } });
+  const [first, second] = await resultsOf(sweep);
+  const page = await visit(`#/jobs/${first.job_id}?with=${second.job_id}`);
+  await page.getByRole("heading", { level: 1, name: "link (1,3) mass 0.3 kg" }).waitFor();
+  await page.getByRole("columnheader", { name: "0.4 kg", exact: true }).waitFor();
+  const rows = await page.locator(".card", { has: page.getByRole("heading", { name: "Parameters", exact: true }) }).locator("tr")
+    .evaluateAll((all) => all.map(({ cells }) => [...cells].map(({ textContent }) => textContent)));
+  const row = (name) => rows.find(([text]) => text === name)?.slice(1);
+  assert.deepEqual(row("Link (1,3) mass"), ["0.3", "kg"]);
+  assert.equal(JSON.parse(row("Crank drive")[0]).law, crank.law);
+  await picture(page, "link_mass");
+  await leave(page);
+});
+
 test("plots tell the peaks that lie between their samples, and are saved with their names", async () => {
   const { id, metrics } = await computedJob();
   const page = await visit(`#/jobs/${id}`);

@@ -35,6 +35,8 @@ const isWaiting = (state) => state === "queued" || state === "running";
 const hasTrajectory = ({ state, parameters: { keep } }) => state === "succeeded" && keep !== "metrics";
 const sliderAcceleration = "slider_acceleration_m_s2";
 const energies = ["kinetic_energy_j", "potential_energy_j", "drive_work_j"];
+/// Parameters in the titles of RPSUP's jobs.
+const inTitles = ["coupler", "crank", "rod", "cross", "clearance_mm", "crank_velocity_rad_s"];
 const pollMs = 1000;
 const sweepPolls = 5;  // its sweep is asked for with every fifth
 const rememberMs = 400;  // browsers refuse to change the address many times a second
@@ -66,9 +68,9 @@ export async function show(main, { id, query, signal }) {
   const isComparable = hasTrajectory(job) ? hasTrajectory : ({ state }) => state === "succeeded";
   const more = found.filter((other) => other !== null).filter(isComparable);
   document.title = `RPSUP: job ${id.slice(-5)}`;
-  // The varied parameters of a sweep tell jobs of a described linkage apart. A sweep may be gone.
-  const sweep = isDescribed(job) && job.sweep_id
-    ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
+  // The varied parameters of a sweep tell its jobs apart. A sweep may be gone.
+  const sweep = job.sweep_id ? await findSweep(job.sweep_id, signal).catch(() => null) : null;
+  signal.throwIfAborted();
   const page = new JobPage([job, ...more], schema, query, signal, sweep?.axes ?? []);
   page.omitted = others.filter((other) => !more.some((each) => each.id === other));
   if (job.state !== "succeeded") {
@@ -124,10 +126,11 @@ class JobPage {
     const drive = job.parameters.crank_drive;
     const bent = ["crank", "rod", "cross"].filter((link) => job.parameters[link] === "flexible")
       .map((link) => `flexible ${link}, `).join("");
-    const title = typeof linkage === "object"
-      ? [titleOfLinkage(linkage), settingOf(job, this.axes)].filter(Boolean).join(", ")
+    const what = typeof linkage === "object" ? titleOfLinkage(linkage)
       : `${coupler} coupler, ${bent}clearance ${number(clearance, 6)} mm, ${velocity === undefined
         ? `crank by ${drive?.law ?? drive?.actuator}` : `${number(velocity, 6)} rad/s`}`;
+    const others = this.axes.filter((axis) => typeof linkage === "object" || !inTitles.includes(axis));
+    const title = [what, settingOf(job, others)].filter(Boolean).join(", ");
     const back = job.sweep_id ? h("a", { href: routeTo("sweeps", job.sweep_id) }, "sweep") : "no sweep";
     this.drawState();
     const failure = job.error ? h("p", { class: "trouble" }, `${job.error.reason}: ${job.error.detail}`) : null;
@@ -193,7 +196,8 @@ class JobPage {
   /// Page of a job that stores no trajectory.
   metricsAlone() {
     return [h("p", { class: "quiet" }, "No plots: this job keeps its metrics alone."),
-      h("div", { class: "columns even" }, metricsCard(this.jobs), runCard(this.job, this.schema, this.axes))];
+      h("div", { class: "columns even" }, metricsCard(this.jobs, this.axes),
+        runCard(this.job, this.schema, this.axes))];
   }
 
   async body() {
@@ -232,8 +236,8 @@ class JobPage {
       motionCard(this.job, offered, this.signal),
       wearCard(this.job, joints.filter(({ prefix }) => all.includes(`${prefix}ring_1_sliding_work_j`)), this.signal)];
     const side = [sceneCard(this.job, all, this.times, this.signal),
-      ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)), metricsCard(this.jobs),
-      runCard(this.job, this.schema, this.axes)];
+      ...joints.map((joint) => orbit(this.job, joint, this.times, this.signal)),
+      metricsCard(this.jobs, this.axes), runCard(this.job, this.schema, this.axes)];
     return [timeBar(this.times, this.job, this.acceleration, this.signal),
       h("div", { class: "columns" }, h("div", {}, plots.filter(Boolean)), h("div", {}, side.filter(Boolean)))];
   }
@@ -244,9 +248,9 @@ class JobPage {
    * @param {Partial<Parameters<typeof plotCard>[1]>} more
    */
   card(title, channels, more = {}) {
-    const traces = tracesOf(this.jobs, channels.map((channel) => withEnvelope(channel, this.columns)), title);
+    const traces = tracesOf(this.jobs, channels.map((channel) => withEnvelope(channel, this.columns)), this.axes, title);
     return plotCard(title, { traces: [...traces, ...this.measuredOf(channels)],
-      note: peakNote(this.jobs, channels),
+      note: peakNote(this.jobs, channels, this.axes),
       times: this.times, height: 220, signal: this.signal, ...more });
   }
 
@@ -262,9 +266,9 @@ class JobPage {
     this.mainLife = new AbortController();
     const signal = AbortSignal.any([this.signal, this.mainLife.signal]);
     this.main.replaceChildren(plotCard(nameOfChannel(acceleration.channel),
-      { traces: [...behind, ...tracesOf(this.jobs, [acceleration]),
+      { traces: [...behind, ...tracesOf(this.jobs, [acceleration], this.axes),
         ...this.measuredOf([acceleration.channel])],
-        note: peakNote(this.jobs, [acceleration.channel]),
+        note: peakNote(this.jobs, [acceleration.channel], this.axes),
         times: this.times, height: 320, signal, tools }));
   }
 

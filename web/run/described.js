@@ -11,32 +11,30 @@ export const isDescribed = (job) => typeof job.parameters.linkage === "object";
 /** @type {(linkage: Api.DescribedLinkage) => string} */
 export const titleOfLinkage = ({ name, joints }) => name ?? `Linkage of ${Object.keys(joints).length} joints`;
 
-/// Numbers and words of a part of a job's parameters by their paths: {"linkage.bodies.rod.mass_kg": 0.2}.
+/// Numbers and words of a job's parameters, or of a part of them, by their paths: {"linkage.bodies.rod.mass_kg": 0.2}.
 /** @param {any} value  @param {string} path  @returns {Record<string, number | string>} */
-export function leavesOf(value, path) {
+export function leavesOf(value, path = "") {
   if (typeof value !== "object" || value === null) {
     return ["number", "string"].includes(typeof value) ? { [path]: value } : {};
   }
-  return Object.assign({}, ...Object.entries(value).map(([key, inner]) => leavesOf(inner, `${path}.${key}`)));
+  return Object.assign({}, ...Object.entries(value).map(([key, inner]) => leavesOf(inner, path ? `${path}.${key}` : key)));
 }
 
-/// Numbers and words inside the linkage that a sweep varies, by their paths, with the values of a job.
+/// Numbers and words that a sweep varies, by their paths, with the values of a job.
 /**
  * @param {Pick<Api.Job, "parameters">} job
  * @param {string[]} axes
  * @returns {[string, number | string][]}
  */
-export function variedInside({ parameters: { linkage } }, axes) {
-  const leaves = leavesOf(linkage, "linkage");
+export function variedIn({ parameters }, axes) {
+  const leaves = leavesOf(parameters);
   return axes.filter((axis) => axis in leaves).map((axis) => [axis, leaves[axis]]);
 }
 
 /// Values of a job of a sweep in words: "crank drive velocity 8 rad/s, rocker mass 0.3 kg".
 /** @param {Pick<Api.Job, "parameters">} job  @param {string[]} axes */
 export function settingOf(job, axes) {
-  const outside = axes.filter((axis) => typeof (job.parameters[axis] ?? {}) !== "object")
-    .map((axis) => [axis, job.parameters[axis]]);
-  return [...outside, ...variedInside(job, axes)].map(([axis, value]) => [nameOf(axis).toLowerCase(),
+  return variedIn(job, axes).map(([axis, value]) => [nameOf(axis).toLowerCase(),
     typeof value === "number" ? number(value, 6) : value, unitOf(axis)].filter(Boolean).join(" ")).join(", ");
 }
 

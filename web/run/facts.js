@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of a job: metrics, losses, provenance, parameters.
 import { h } from "/core/dom.js";
-import { exact, nameOf, number, span, timeMetricOf, titleOf, unitOf } from "/core/format.js";
+import { exact, nameOf, number, plural, span, timeMetricOf, titleOf, unitOf } from "/core/format.js";
 import { term } from "/core/quantities.js";
-import { variedInside } from "/run/described.js";
+import { variedIn } from "/run/described.js";
 import { labelsOf } from "/run/labels.js";
 
+const mostListed = 6;  // values of a parameter
+
 /// Peaks stand with their times.
-/** @param {Api.Job[]} jobs */
-export function metricsCard(jobs) {
+/** @param {Api.Job[]} jobs  @param {string[]} axes  of their sweep */
+export function metricsCard(jobs, axes) {
   const all = Object.keys(jobs[0].metrics ?? {});
   const times = new Set(all.map(timeMetricOf));
   const names = all.filter((name) => !times.has(name));
-  const labels = labelsOf(jobs);
+  const labels = labelsOf(jobs, axes);
   const head = h("tr", {}, h("th", { scope: "col" }, "Metric"),
     labels.flatMap((_, index) => [h("th", { scope: "col", class: "number" }, jobs.length === 1 ? "Value" : labels[index]),
       h("th", { scope: "col", class: "number" }, "At [s]")]),
@@ -64,17 +66,36 @@ function provenanceOf({ program, libm, ...run }) {
     run.reused && "reused from an earlier run"].filter(Boolean).join("; ");
 }
 
-/// @param axes  of the job's sweep, of which those inside a described linkage are shown, too
+/// Parameters of a job by their paths, those of its links one by one, without the linkage.
+/** @param {Api.Job} job  @returns {any[][]} */
+function parametersOf({ parameters: { linkage: _, links = {}, ...others } }) {
+  const ofLinks = Object.entries(links).flatMap(([link, values]) =>
+    Object.entries(values).map(([key, value]) => [`links.${link}.${key}`, value]));
+  return [...Object.entries(others), ...ofLinks].filter(([, value]) => value !== null && value !== undefined);
+}
+
+/// Value of a parameter in words: a drive as JSON, of a long list the number of its values.
+/** @param {any} value */
+function valueText(value) {
+  if (!Array.isArray(value)) return typeof value === "object" ? JSON.stringify(value, null, 1) : exact(value);
+  const values = value.flat(Infinity);
+  return values.length > mostListed ? plural(values.length, "value") : values.map(exact).join(", ");
+}
+
+/// @param axes  of the job's sweep, of which those inside a linkage or drive are shown, too
 /** @param {Api.Job} job  @param {any} schema  @param {string[]} axes */
 export function runCard(job, schema, axes) {
-  const defaults = (name) => JSON.stringify(schema.properties[name]?.default) === JSON.stringify(job.parameters[name]);
-  const set = Object.entries(job.parameters).filter(([, value]) => typeof value !== "object");
-  const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)), h("td", { class: "number" }, exact(value)),
-    h("td", {}, schema.properties[name]?.["x-unit"] ?? (name.includes(".") ? unitOf(name) : "")));
+  const schemaOf = (name) => name.split(".").reduce((inner, key) => inner?.properties?.[key], schema);
+  const isDefault = ([name, value]) => JSON.stringify(schemaOf(name)?.default) === JSON.stringify(value);
+  const all = parametersOf(job);
+  const inside = variedIn(job, axes).filter(([axis]) => !all.some(([name]) => name === axis));
+  const row = ([name, value]) => h("tr", {}, h("td", {}, nameOf(name)),
+    h("td", { class: typeof value === "object" ? null : "number" }, valueText(value)),
+    h("td", {}, schemaOf(name)?.["x-unit"] ?? (name.includes(".") ? unitOf(name) : "")));
   const facts = job.run ? provenanceOf(job.run) : "not completed";
   return h("section", { class: "card" }, h("h2", {}, "Parameters"), h("p", { class: "small quiet" }, `Run: ${facts}.`),
     h("table", {}, h("tbody", {},
-      [...variedInside(job, axes), ...set.filter(([name]) => !defaults(name))].map(row))),
+      [...inside, ...all.filter((each) => !isDefault(each))].map(row))),
     h("details", {}, h("summary", {}, "Parameters at their defaults"),
-      h("table", {}, h("tbody", {}, set.filter(([name]) => defaults(name)).map(row)))));
+      h("table", {}, h("tbody", {}, all.filter(isDefault).map(row)))));
 }

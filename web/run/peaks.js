@@ -42,9 +42,9 @@ function timeText(metrics, key) {
 }
 
 /// The peaks of what a plot shows, for below it; empty if the metrics have none.
-/** @param {Api.Job[]} jobs  @param {string[]} channels */
-export function peakNote(jobs, channels) {
-  const labels = labelsOf(jobs);
+/** @param {Api.Job[]} jobs  @param {string[]} channels  @param {string[]} axes  of the jobs' sweep */
+export function peakNote(jobs, channels, axes) {
+  const labels = labelsOf(jobs, axes);
   const nameFor = (channel, j) => [channels.length > 1 && nameOfChannel(channel),
     jobs.length > 1 && labels[j]].filter(Boolean).join(", ");
   const peaks = jobs.flatMap((job, j) => channels.map((channel) => [nameFor(channel, j), peakOf(job, channel)]))

@@ -44,16 +44,17 @@ function shortened(names, title) {
 }
 
 /// Traces of some channels for each of the jobs. @param channels  names, or {channel, envelope}
-/// @param title  of their plot
+/// @param axes  of the jobs' sweep  @param title  of their plot
 /**
  * @param {Api.Job[]} jobs
  * @param {(string | Pick<Trace, "channel" | "envelope">)[]} channels
+ * @param {string[]} axes
  * @param {string} title
  * @returns {Trace[]}
  */
-export function tracesOf(jobs, channels, title = "") {
+export function tracesOf(jobs, channels, axes, title = "") {
   const several = jobs.length > 1;
-  const labels = labelsOf(jobs);
+  const labels = labelsOf(jobs, axes);
   const paths = channels.map((each) => (typeof each === "string" ? each : each.channel));
   const full = paths.map(nameOfChannel);
   const isPlain = new Set(paths.map((path) => unitOf(path))).size === 1;
