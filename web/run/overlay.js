@@ -11,12 +11,14 @@ const mostOffered = 500;
 export async function overlayPicker(jobs, chosen, signal) {
   const { sweep_id: id } = jobs[0];
   if (!id) return null;
-  const { axes } = await findSweep(id, signal);
-  const rows = await findResults(id, { fields: ["job_id", "state", ...axes].join(","), limit: mostOffered }, signal);
+  const { axes, request } = await findSweep(id, signal);
+  const columns = [...axes, ...(request.replicates ? ["replicate"] : [])];
+  const rows = await findResults(id, { fields: ["job_id", "state", ...columns].join(","), limit: mostOffered }, signal);
   const others = rows.filter((row) => row.state === "succeeded" && !jobs.some((job) => job.id === row.job_id));
   if (others.length === 0) return null;
   /** @type {(row: Api.Row) => string} */
-  const textOf = (row) => axes.map((axis) => pointOf(axis, row[axis])).join(", ") || `…${row.job_id.slice(-5)}`;
-  return choice("Overlay job", [["", "choose …"], ...others.map((row) => [row.job_id, textOf(row)])], "",
+  const textOf = (row) => columns.map((column) => pointOf(column, row[column])).join(", ") || `…${row.job_id.slice(-5)}`;
+  const more = rows.length < mostOffered ? [] : [["", `the first ${mostOffered} jobs: select others in the sweep`]];
+  return choice("Overlay job", [["", "choose …"], ...others.map((row) => [row.job_id, textOf(row)]), ...more], "",
     (job) => job && chosen(job));
 }
