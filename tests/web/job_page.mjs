@@ -168,6 +168,19 @@ test("the linkage is asked for in pauses while the service is away, and drawn wh
   await leave(page, away);
 });
 
+test("a spectrum that is asked for while the service is away is drawn when it is back", async () => {
+  const { id } = await computedJob();
+  const page = await visit(`#/jobs/${id}`);
+  await page.route("**/spectrum?**", (route) => route.abort());
+  await page.getByText("Spectrum and Poincaré section").click();
+  const card = page.locator("details", { has: page.getByRole("heading", { name: "Spectrum of the steady window" }) });
+  await card.getByText("The service does not answer. Trying again …").waitFor();
+  await page.unroute("**/spectrum?**");
+  await card.locator(".chart").first().locator("canvas").first().waitFor();
+  await card.getByText("The service does not answer.").waitFor({ state: "hidden" });
+  await leave(page, away);
+});
+
 test("jobs that have no curves are left out of an overlay", async () => {
   const { id } = await computedJob();
   const page = await visit("#/wear");

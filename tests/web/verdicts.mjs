@@ -71,15 +71,17 @@ test("a limit that was not exceeded says at how many values was looked, and has 
   await leave(other);
 });
 
+/** A limit over a velocity. */
+const limit = (velocity, verdict, value) => ({ crank_velocity_rad_s: velocity, verdict, limit: value, limit_beyond: value === null ? null : value + 0.01,
+  band_from: null, band_to: null, falls: [], points: [], evaluations: 3, lost_reason: null, monotonic: true });
+/** A search that the service does not have. */
+const given = { id: "sch_given", sweep_id: "swp_given", name: "given", state: "succeeded", error: null, progress: 1, counts: { succeeded: 9, total: 9 },
+  axes: ["crank_velocity_rad_s"], parameter: "clearance_mm", metric: "max_penetration_um", bound: 4, quantile: 0.9,
+  request: { over: { clearance_mm: { from: 0.05, to: 0.3 } } }, limits: [limit(10, "found", 0.2), limit(8, "always_exceeded", null), limit(5, "found", 0.1), limit(12, "lost", null)] };
+
 test("the line of limits has a gap and a cross where there is no limit", async () => {
-  const limit = (velocity, verdict, value) => ({ crank_velocity_rad_s: velocity, verdict, limit: value, limit_beyond: value === null ? null : value + 0.01,
-    band_from: null, band_to: null, falls: [], points: [], evaluations: 3, lost_reason: null, monotonic: true });
-  const search = { id: "sch_given", sweep_id: "swp_given", name: "given", state: "succeeded", error: null, progress: 1, counts: { succeeded: 9, total: 9 },
-    axes: ["crank_velocity_rad_s"], parameter: "clearance_mm", metric: "max_penetration_um", bound: 4, quantile: 0.9,
-    request: { over: { clearance_mm: { from: 0.05, to: 0.3 } } },
-    limits: [limit(10, "found", 0.2), limit(8, "always_exceeded", null), limit(5, "found", 0.1), limit(12, "lost", null)] };
   const page = await visit("#/help");
-  await page.route("**/v1/searches/sch_given", (route) => route.fulfill({ json: search }));
+  await page.route("**/v1/searches/sch_given", (route) => route.fulfill({ json: given }));
   await page.goto(`${url}/#/searches/sch_given`);
   await page.locator(".chart canvas").nth(1).waitFor();
   const { series } = await drawn(page, 0);
@@ -88,6 +90,22 @@ test("the line of limits has a gap and a cross where there is no limit", async (
   assert.equal(text.split(">×<").length - 1, 2, "crosses");
   await picture(page, "limit_gap");
   await leave(page);
+});
+
+test("the end of a search is shown also where the service is busy just then", async () => {
+  const page = await visit("#/help");
+  let asked = 0;
+  await page.route("**/v1/searches/sch_given/events", (route) => route.fulfill({ status: 503, body: "{}" }));
+  await page.route("**/v1/searches/sch_given", (route) => {
+    asked += 1;
+    if (asked > 2 && asked < 6) return route.fulfill({ status: 503, json: { detail: "the service is busy" } });
+    return route.fulfill({ json: asked === 1 ? { ...given, state: "running", progress: 0.5 } : given });
+  });
+  await page.goto(`${url}/#/searches/sch_given`);
+  await page.getByText("running: 50 %").waitFor();
+  await page.getByText("the service is busy Trying again …").waitFor();
+  await page.getByText("succeeded: 100 %").waitFor();
+  await leave(page, /503/);
 });
 
 test("the paper's statements say that they stand on one run each", async () => {

@@ -5,7 +5,7 @@ import { findAnalysis, findTrajectory } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, pointOf, titleOf } from "/core/format.js";
-import { latest } from "/core/live.js";
+import { latest, retryWhileUnreachable } from "/core/live.js";
 import { quantityChoice } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
@@ -34,10 +34,10 @@ export async function bifurcationCard(element, { sweep, numbers, isRpsup, jobId 
   let rows = [];
   const drawing = h("div", { class: "chart tall" });
   const trouble = h("p", { class: "trouble", role: "status" });
+  const tell = (text) => { trouble.textContent = text; };
   const load = latest(async (current, /** @type {string} */ wanted) => {
     rows = await findAnalysis(sweep.id, "bifurcation", { channel: wanted }, current);
     channel = wanted;
-    trouble.textContent = "";
     chart?.draw();
   }, signal);
   let chart = null;
@@ -49,7 +49,8 @@ export async function bifurcationCard(element, { sweep, numbers, isRpsup, jobId 
   element.replaceChildren(h("p", { class: "actions" },
     choice("x axis", numbers.map((axis) => [axis, titleOf(axis)]), along, (axis) => { along = axis; chart?.draw(); }),
     quantityChoice("Channel", "channels", channels, channel,
-      (wanted) => { load(wanted).catch((error) => { trouble.textContent = error.message; }); })), trouble, drawing);
+      (wanted) => retryWhileUnreachable(() => load(wanted), tell, signal).catch((error) => tell(error.message)))),
+  trouble, drawing);
   chart = await makeChart(drawing, () => optionOf(rows, sweep.axes.filter((axis) => axis !== along), along, channel),
     "Bifurcation diagram: the channel once per revolution", signal);
   return chart;

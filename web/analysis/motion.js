@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The spectrum of a channel of a job, and its Poincaré section: made when they are opened.
 import { findMotion } from "/core/api.js";
-import { makeChart, saveButtons } from "/core/charts.js";
+import { makeChart, nothingYet, saveButtons } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { number, titleOf } from "/core/format.js";
-import { latest } from "/core/live.js";
+import { latest, retryWhileUnreachable } from "/core/live.js";
 import { quantityChoice } from "/core/quantities.js";
 import { colour, lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
@@ -34,6 +34,13 @@ export function motionCard(job, columns, signal) {
   return details;
 }
 
+/// Loads again until the service can be reached, and tells why that takes so long or fails.
+/** @param {() => Promise<void>} load  @param {HTMLElement} trouble  @param {AbortSignal} signal */
+function retried(load, trouble, signal) {
+  const tell = (text) => { trouble.textContent = text; };
+  return retryWhileUnreachable(load, tell, signal).catch((error) => tell(error.message));
+}
+
 /** @param {Api.Job} job  @param {string[]} columns  @param {AbortSignal} signal */
 function spectrum(job, columns, signal) {
   /** @type {{ channel: string, window: Window }} */
@@ -48,18 +55,17 @@ function spectrum(job, columns, signal) {
     const { frequency_hz: frequencies, [asked.channel]: amplitudes } = await findMotion(job.id, "spectrum",
       { ...asked, from }, current);
     found = { channel: asked.channel, frequencies, amplitudes };
-    trouble.textContent = "";
     chart?.draw();
   }, signal);
-  const set = (key) => (value) =>
-    { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
+  const tryLoad = () => retried(load, trouble, signal);
+  const set = (key) => (value) => { view[key] = value; tryLoad(); };
   const element = h("div", {},
     h("div", { class: "head" }, h("h3", {}, "Spectrum of the steady window"),
       saveButtons(() => chart, () => `${job.id} spectrum`)),
     h("p", { class: "actions" }, quantityChoice("Channel", "channels", columns, view.channel, set("channel")),
       choice("Window", Object.keys(windows), view.window, set("window"))), trouble, drawing);
-  const option = () => found
-    && ({ grid: { left: 80, right: 20, top: 20, bottom: 50 },
+  const option = () => !found ? nothingYet("", "No values.")
+    : ({ grid: { left: 80, right: 20, top: 20, bottom: 50 },
       tooltip: { trigger: "axis", formatter: ([{ value }]) => `${number(value[0])} Hz\n${number(value[1])}` },
     dataZoom: [{ type: "inside" }], xAxis: acrossAxis("Frequency [Hz]",
       { max: "dataMax", axisLabel: { color: colour("text"), hideOverlap: true,
@@ -70,7 +76,7 @@ function spectrum(job, columns, signal) {
       data: found.frequencies.map((frequency, k) => [frequency, found.amplitudes[k]])
         .filter(([, amplitude]) => amplitude > 0) }] });
   return { element, fill: async () =>
-    { await load(); chart = await makeChart(drawing, option, "Amplitude spectrum", signal); } };
+    { await tryLoad(); chart = await makeChart(drawing, option, "Amplitude spectrum", signal); } };
 }
 
 /// A journal once a turn; the dashed outline is the clearance.
@@ -92,11 +98,10 @@ function section(job, joints, angles, signal) {
     const answer = await findMotion(job.id, "poincare", { channels: `${x},${y}`, angle: view.angle,
       phase_rad: view.phase, from: job.parameters.run_up_s }, current);
     found = { x: answer[x], y: answer[y], t_s: answer.t_s };
-    trouble.textContent = "";
     chart?.draw();
   }, signal);
-  const set = (key) => (value) =>
-    { view[key] = value; load().catch((error) => { trouble.textContent = error.message; }); };
+  const tryLoad = () => retried(load, trouble, signal);
+  const set = (key) => (value) => { view[key] = value; tryLoad(); };
   const label = isDescribed(job) ? "Angle [rad]" : "Crank angle [rad]";
   const slider = h("input", { type: "range", min: 0, max: 6.28, step: 0.01, value: 0, "aria-label": label,
     onchange: () => set("phase")(Number(slider.value)) });
@@ -113,8 +118,8 @@ function section(job, joints, angles, signal) {
   const ends = () => ({ min: -half(), max: half(),
     axisLabel: { color: colour("text"), hideOverlap: true, showMinLabel: false, showMaxLabel: false,
       formatter: (value) => number(value, 2) } });
-  const option = () => found
-    && ({ grid: { left: 75, right: 20, top: 20, bottom: 75 },
+  const option = () => !found ? nothingYet("", "No values.")
+    : ({ grid: { left: 75, right: 20, top: 20, bottom: 75 },
       tooltip: { formatter: ({ value }) => `${number(value[0])}, ${number(value[1])} mm at ${number(value[2])} s` },
     xAxis: acrossAxis(titleOf(channelsOf(view.joint)[0]), ends()),
     yAxis: valueAxis(titleOf(channelsOf(view.joint)[1]), ends()),
@@ -123,7 +128,7 @@ function section(job, joints, angles, signal) {
       { type: "scatter", symbolSize: 7, color: lineColour(0),
         data: found.t_s.map((t, k) => [found.x[k], found.y[k], t]) }] });
   return { element, fill: async () =>
-    { await load(); chart = await makeChart(drawing, option,
+    { await tryLoad(); chart = await makeChart(drawing, option,
       "Poincaré section: the journal's centre once per revolution", signal); } };
 }
 

@@ -4,7 +4,7 @@ import { findAnalysis } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
 import { nameOf, number, pointOf, titleOf, unitOf } from "/core/format.js";
-import { latest } from "/core/live.js";
+import { latest, retryWhileUnreachable } from "/core/live.js";
 import { colour, lineColour, palette } from "/core/theme.js";
 import { acrossAxis, valueAxis } from "/analysis/parts.js";
 
@@ -27,7 +27,8 @@ export async function surrogateCard(element, { sweep, metric }, signal) {
     made = await findAnalysis(sweep.id, "surrogate", { metric, x, y }, current);
     draw();
   }, signal);
-  const again = (x, y) => load(x, y).catch((error) => { said.textContent = error.message; });
+  const tell = (text) => { if (text) said.textContent = text; };
+  const again = (x, y) => retryWhileUnreachable(() => load(x, y), tell, signal).catch((error) => tell(error.message));
   const draw = () => {
     drawing.hidden = made.surfaces[shown].values === null;
     said.textContent = judgement(made.surfaces[shown], made);

@@ -4,9 +4,9 @@
 import { depthAxis } from "/analysis/polar.js";
 import { findWear } from "/core/api.js";
 import { makeChart, saveButtons } from "/core/charts.js";
-import { choice, h, notify } from "/core/dom.js";
+import { choice, h, tellTrouble } from "/core/dom.js";
 import { exact, number } from "/core/format.js";
-import { latest } from "/core/live.js";
+import { latest, retryWhileUnreachable } from "/core/live.js";
 import { colour, lineColour } from "/core/theme.js";
 import { faultOfNumber, numberOr } from "/form/numbers.js";
 
@@ -44,14 +44,16 @@ async function fill(body, job, joints, signal) {
       + `mm, ${number(worst.rate_um_h)} µm/h${life}.`;
     chart?.draw();
   }, signal);
+  const retried = () => retryWhileUnreachable(load, tellTrouble, signal);
+  const tryLoad = () => retried().catch((error) => { if (error.name !== "AbortError") tellTrouble(error.message); });
   const field = (label, key) => {
     const input = h("input",
       { type: "text", inputmode: "decimal", value: view[key],
         onchange: () => {
           const fault = faultOfNumber(input.value);
-          if (fault) return notify(`${label}: ${fault}`, "trouble");
+          if (fault) return tellTrouble(`${label}: ${fault}`);
           view[key] = numberOr(input.value, "");
-          return load().catch((error) => notify(error.message, "trouble"));
+          return tryLoad();
         } });
     return h("label", { class: "choice" }, h("span", {}, label), input);
   };
@@ -62,11 +64,11 @@ async function fill(body, job, joints, signal) {
           + "and lubricant."),
     saveButtons(() => chart, () => `${job.id} wear`)),
   h("p", { class: "actions" }, joints.length > 1 ? choice("Joint", joints.map((name) => [name, name]), view.joint,
-    (name) => { view.joint = name; load().catch((error) => notify(error.message, "trouble")); }) : null, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
+    (name) => { view.joint = name; tryLoad(); }) : null, field("Wear coefficient [m²/N]", "wear_coefficient_m2_n"),
     field("Worn clearance [mm]", "worn_clearance_mm")), said, drawing);
-  await load();
-  chart = await makeChart(drawing, () => optionOf(rows, drawing.clientWidth), "Worn depth around the bearing",
-    signal);
+  await retried();
+  chart = await makeChart(drawing, () => (rows.length > 0 ? optionOf(rows, drawing.clientWidth) : null),
+    "Worn depth around the bearing", signal);
 }
 
 /// The bore is the circle in the middle; 0 degrees, the bearing's x, points right, and angles go against the clock.

@@ -82,6 +82,7 @@ export async function makeChart(element, makeOption, label, signal) {
   if (!element.hasChildNodes()) element.append(h("p", { class: "quiet small loading" },
     "Loading the chart …"));
   const echarts = await loadCharts();
+  signal.throwIfAborted();
   element.replaceChildren();
   const chart = echarts.init(element);
   element.setAttribute("role", "img");

@@ -3,6 +3,7 @@
 import { findResults, findSweep, reportUrl } from "/core/api.js";
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { h, setSeen } from "/core/dom.js";
+import { retryWhileUnreachable } from "/core/live.js";
 import { quantityChoice } from "/core/quantities.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { metricsOf, usualMetric } from "/study/data.js";
@@ -92,7 +93,8 @@ function card(name, title, help, make, analysed, signal) {
   let chart = null;
   const save = saveButtons(() => chart, () => `${name} ${title.toLowerCase()}`);
   setSeen(save, false);
-  make(body, analysed, signal).then((made) => {
+  const tell = (text) => text && body.replaceChildren(h("p", { class: "trouble", role: "status" }, text));
+  retryWhileUnreachable(() => make(body, analysed, signal), tell, signal).then((made) => {
     chart = made;
     if (made) setSeen(save, true);
     else save.remove();

@@ -3,7 +3,7 @@
 import { findJob, submitJob } from "/core/api.js";
 import { h } from "/core/dom.js";
 import { number } from "/core/format.js";
-import { pause } from "/core/live.js";
+import { latest, pause, retryWhileUnreachable } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const samplesInSight = 5000;
@@ -26,7 +26,7 @@ function finerRate({ from, to }, own) {
 /** @param {TimeWindow} times  @param {Api.Job} job  @param {AbortSignal} signal */
 export function finerButton(times, job, signal) {
   const told = h("span", { class: "small", role: "status" });
-  const button = h("button", { onclick: () => run() });
+  const button = h("button", { onclick: () => run().catch((error) => { told.textContent = error.message; }) });
 
   function draw() {
     const rate = finerRate(times, job.parameters.output_rate_hz);
@@ -36,25 +36,23 @@ export function finerButton(times, job, signal) {
       : `A job with the same parameters that ends at ${number(times.to, 6)} s`;
   }
 
-  async function run() {
+  const run = latest(async (current) => {
     const { from, to } = times;
     const rate = finerRate(times, job.parameters.output_rate_hz);
     const short = (value) => Number(value.toPrecision(7));
     told.textContent = "Submitting …";
-    try {
-      const { id, state } = await submitJob({ ...job.parameters, duration_s: short(to), output_rate_hz: rate,
-        keep: "all" });
-      const link = h("a", { href: routeTo("jobs", id, { from: short(from), to: short(to) }) },
-        `job …${id.slice(-5)}`);
-      for (let now = state; ; { state: now } = await findJob(id, signal)) {
-        told.replaceChildren("Finer run: ", link, `, ${now}`);
-        if (now !== "queued" && now !== "running") break;
-        await pause(pollMs, signal);
-      }
-    } catch (error) {
-      if (error.name !== "AbortError") told.textContent = error.message;
+    const { id, state } = await submitJob({ ...job.parameters, duration_s: short(to), output_rate_hz: rate,
+      keep: "all" });
+    current.throwIfAborted();
+    const link = h("a", { href: routeTo("jobs", id, { from: short(from), to: short(to) }) },
+      `job …${id.slice(-5)}`);
+    const tell = (text) => text && told.replaceChildren("Finer run: ", link, `, ${text}`);
+    for (let now = state; ; { state: now } = await retryWhileUnreachable(() => findJob(id, current), tell, current)) {
+      tell(now);
+      if (now !== "queued" && now !== "running") break;
+      await pause(pollMs, current);
     }
-  }
+  }, signal);
 
   times.addEventListener("change", draw, { signal });
   draw();

@@ -2,8 +2,8 @@
 // Base of the page of one study: charts side by side, a table and actions, kept up to date.
 import { loadCharts, saveButtons } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
-import { h, notify, setSeen } from "/core/dom.js";
-import { followStudy, inTurn, throttle } from "/core/live.js";
+import { h, notify, setSeen, tellTrouble } from "/core/dom.js";
+import { followStudy, inTurn, retryWhileUnreachable, throttle } from "/core/live.js";
 import { routeTo } from "/core/route.js";
 
 const reloadMs = 1000;
@@ -119,7 +119,7 @@ export class StudyView {
   }
 
   follow() {
-    if (this.study.state !== "running") return;
+    if (this.study.state !== "running" || this.signal.aborted) return;
     // A study that takes long to fetch is fetched rarely.
     const reload = throttle(() => this.reload(), () => Math.max(reloadMs, 10 * this.reloadTook));
     followStudy(this.kind.api, this.study.id, {
@@ -140,14 +140,17 @@ export class StudyView {
   async load() {
     if (this.isRemoved) return;
     try {
-      const start = performance.now();
-      this.study = /** @type {Kept} */ (await this.kind.api.find(this.study.id, this.signal));
-      await this.findMore();
+      let start = 0;
+      await retryWhileUnreachable(async () => {
+        start = performance.now();
+        this.study = /** @type {Kept} */ (await this.kind.api.find(this.study.id, this.signal));
+        await this.findMore();
+      }, tellTrouble, this.signal);
       this.draw();
       for (const chart of this.drawn) chart?.draw();
       this.reloadTook = performance.now() - start;
     } catch (error) {
-      if (error.name !== "AbortError") notify(error.message, "trouble");
+      if (error.name !== "AbortError" && !this.isRemoved) tellTrouble(error.message);
     }
   }
 
