@@ -53,6 +53,33 @@ test("sweeps are found by the words of their badges, and stand on phones in card
   await leave(page);
 });
 
+test("peaks are asked for of the sweeps in sight, and all that are found can be looked through", async () => {
+  const counts = { queued: 0, running: 0, succeeded: 2, failed: 0, cancelled: 0, total: 2 };
+  const all = Array.from({ length: 1001 }, (_, k) => ({ id: `swp_${k}`, name: `sweep ${k}`, state: "succeeded", counts, progress: 1, eta_s: null, axes: [], tags: [], notes: "",
+    created_at: "2026-01-01T00:00:00Z", executor: "local", study_id: null }));
+  const page = await visit("#/help");
+  await page.route("**/v1/sweeps?**", (route) => {
+    const items = all.slice(0, Number(new URL(route.request().url()).searchParams.get("limit")));
+    return route.fulfill({ json: { items, next_cursor: items.length < all.length ? "more" : "" } });
+  });
+  const asked = new Set();
+  await page.route("**/results?**", (route) => {
+    asked.add(route.request().url().match(/swp_\d+/)[0]);
+    return route.fulfill({ json: [{ job_id: "job_given", peak_slider_acceleration_m_s2: 3 }] });
+  });
+  await page.goto(`${url}/#/?sort=name`);
+  const rows = page.locator(".listing tbody tr");
+  await rows.nth(999).waitFor();
+  await rows.first().locator(".peaks a").first().waitFor();
+  await page.waitForTimeout(1000);
+  assert.ok(asked.size < 100, `peaks of ${asked.size} sweeps`);
+  await page.getByRole("button", { name: "Show more" }).click();
+  await rows.nth(1000).waitFor();
+  await rows.nth(1000).scrollIntoViewIfNeeded();
+  await rows.nth(1000).locator(".peaks a").first().waitFor();
+  await leave(page);
+});
+
 test("on a phone the header has two lines, and the link of the page is in sight", async () => {
   const page = await visit("#/help", { viewport: { width: 390, height: 844 } });
   await page.getByRole("heading", { name: "Help", level: 1 }).waitFor();

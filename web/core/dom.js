@@ -100,6 +100,13 @@ export async function laidOut(element, signal) {
   while (element.clientWidth === 0 && !signal.aborted) await new Promise(requestAnimationFrame);
 }
 
+/// True of an element in sight, or less than a window's height away from that.
+/** @param {Element} element */
+export function isNear(element) {
+  const { top, bottom } = element.getBoundingClientRect();
+  return element.isConnected && bottom > -innerHeight && top < 2 * innerHeight;
+}
+
 /// Resolves once what stands in the page now is on the screen. A hidden page, which has no frames, is not waited for.
 /** @returns {Promise<void>} */
 export function painted() {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Order of lists, and items that are marked to be deleted together.
+// Order of lists, items that are marked to be deleted together, and questions about the rows in sight.
+import { isUnreachable } from "/core/api.js";
 import { confirmed } from "/core/dialog.js";
-import { choice, h, notify } from "/core/dom.js";
+import { choice, h, isNear, notify } from "/core/dom.js";
+import { debounce, inTurn } from "/core/live.js";
+
+const settleMs = 200;  // after scrolling
 
 /** @typedef {{ id: string, name: string }} Named */
 
@@ -161,4 +165,26 @@ export class Marked {
     }
     this.done();
   }
+}
+
+/// A function that asks about the rows in sight, or nearly so, one after the other. It is called after scrolling, too.
+/// @param ask  of a row, which does nothing where all is known. Without a service the questions end until the next call.
+/**
+ * @template {{ element: HTMLElement }} Row
+ * @param {() => Iterable<Row>} rows
+ * @param {(row: Row) => Promise<void>} ask
+ * @param {AbortSignal} signal
+ */
+export function askInSight(rows, ask, signal) {
+  const run = inTurn(async () => {
+    for (const row of [...rows()].filter(({ element }) => isNear(element))) {
+      try {
+        await ask(row);
+      } catch (error) {
+        if (error.name === "AbortError" || isUnreachable(error)) return;
+      }
+    }
+  });
+  addEventListener("scroll", debounce(run, settleMs), { signal });
+  return run;
 }

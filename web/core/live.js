@@ -136,6 +136,15 @@ export function inTurn(run) {
   };
 }
 
+/// Runs a function again so many milliseconds after its end, while the page is seen, until the signal is given.
+/** @param {() => Promise<void>} run  @param {number} milliseconds  @param {AbortSignal} signal */
+export async function keepRunning(run, milliseconds, signal) {
+  while (!signal.aborted) {
+    await new Promise((resolve) => { setTimeout(resolve, milliseconds); });
+    if (!signal.aborted && !document.hidden) await run();
+  }
+}
+
 /// A function that runs the given one at most once in so many milliseconds (or as many as a function gives), and
 /// always after the last call.
 /** @param {() => unknown} run  @param {number | (() => number)} milliseconds */

@@ -5,8 +5,8 @@ import { warmUpCharts } from "/core/charts.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, notify } from "/core/dom.js";
 import { nameOf, plural } from "/core/format.js";
-import { ListOrder, Marked } from "/core/list_tools.js";
-import { debounce, isUnderWay } from "/core/live.js";
+import { ListOrder, Marked, askInSight } from "/core/list_tools.js";
+import { debounce, isUnderWay, keepRunning, latest } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 import { executorsPanel } from "/study/executors.js";
 import { SweepRow, jobStates, studyWords } from "/study/sweep_row.js";
@@ -36,21 +36,21 @@ export async function show(main, { query, signal }) {
   const view = new SweepList(query, signal);
   main.replaceChildren(...view.parts());
   await view.refresh();
-  view.keepAsking();
+  keepRunning(view.refresh, pollMs, signal);
   // The next view needs them. Safari tells no idle time.
   const later = globalThis.requestIdleCallback ?? setTimeout;
   later(() => Promise.all([warmUpCharts(), import("/pages/sweep.js")]).catch(() => {}));
 }
 
 class SweepList {
-  limit = pageSize;
+  pages = 1;
   /** @type {Api.ListedSweep[]} */
   sweeps = [];
   /** @type {Map<string, SweepRow>} */
   rows = new Map();
   status = h("p", { class: "quiet", role: "status" }, "Loading the sweeps …");
   body = h("tbody");
-  more = h("button", { hidden: true, onclick: () => { this.limit += pageSize; this.refresh(); } }, "Show more");
+  more = h("button", { hidden: true, onclick: () => { this.pages += 1; this.refresh(); } }, "Show more");
   none = h("p", { class: "card", hidden: true }, "No matching sweeps.");
   executors = executorsPanel();
   /** @type {Marked<Listing>} */
@@ -62,6 +62,8 @@ class SweepList {
   /** @param {URLSearchParams} query  @param {AbortSignal} signal */
   constructor(query, signal) {
     this.signal = signal;
+    this.refresh = latest((current) => this.#load(current), signal);
+    this.learnPeaks = askInSight(() => this.rows.values(), (row) => row.showPeaks(), signal);
     this.state = stateOf(query.get("state"));
     this.search = query.get("search") ?? "";
     /** @type {ListOrder<Listing>} */
@@ -109,16 +111,14 @@ class SweepList {
   }
 
   #query() {
-    return { limit: this.search || !this.order.isUsual ? mostSearched : this.limit, state: this.state
-      || undefined };
+    const size = this.search || !this.order.isUsual ? mostSearched : pageSize;
+    return { limit: this.pages * size, state: this.state || undefined };
   }
 
-  async refresh() {
-    const query = this.#query();
+  /** @param {AbortSignal} current */
+  async #load(current) {
     try {
-      const [page, executors] = await Promise.all([
-        listSweeps(query, this.signal), listExecutors(this.signal)]);
-      if (JSON.stringify(query) !== JSON.stringify(this.#query())) return;  // meanwhile another list is asked for
+      const [page, executors] = await Promise.all([listSweeps(this.#query(), current), listExecutors(current)]);
       this.executors.update(executors.items);
       this.sweeps = page.items;
       this.more.hidden = !page.next_cursor;
@@ -129,11 +129,6 @@ class SweepList {
       this.status.textContent = `${error.message} Trying again …`;
       this.status.classList.add("trouble");
     }
-  }
-
-  keepAsking() {
-    const timer = setInterval(() => this.refresh(), pollMs);
-    this.signal.addEventListener("abort", () => clearInterval(timer));
   }
 
   /** @param {Api.ListedSweep} sweep */
@@ -164,6 +159,7 @@ class SweepList {
     const busy = shown.filter(isUnderWay).length;
     this.status.textContent = `${this.more.hidden ? "" : "The newest "}${plural(shown.length, "sweep")}, ${busy} `
       + `under way`;
+    this.learnPeaks();
   }
 
   async act(run, action, id) {

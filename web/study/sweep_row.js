@@ -11,6 +11,7 @@ const usualPeak = "peak_slider_acceleration_m_s2";
 /// Classes of the cells.
 const classes = { box: "box", name: "name", state: "", jobs: "small", peaks: "peaks",
   created: "small created", actions: "acts" };
+const peaksMs = 30000;  // between two questions on the peaks of a sweep under way
 const shownOfId = 7;  // last letters of an id: the first ones tell the time and are much alike
 /** @type {Record<Api.State, true>} */
 const isState = { queued: true, running: true, succeeded: true, failed: true, cancelled: true };
@@ -42,7 +43,10 @@ export function studyBadge({ study_id: id }) {
 
 export class SweepRow {
   #drawn = "";  // JSON of the sweep that the row shows
-  #counted = -1;  // jobs that had succeeded then
+  #counted = 0;  // jobs that had succeeded when the peaks were asked for
+  #askedAt = -Infinity;  // [ms]
+  /** @type {Api.ListedSweep} */
+  #sweep;
   #state = h("span");
   #percent = h("span", { class: "quiet" });
   #left = h("span", { class: "small quiet" });
@@ -73,13 +77,11 @@ export class SweepRow {
     const text = JSON.stringify(sweep);
     if (text === this.#drawn) return;
     this.#drawn = text;
+    this.#sweep = sweep;
     this.#drawName(sweep);
     this.#drawState(sweep);
     this.#drawJobs(sweep);
     this.#drawActions(sweep);
-    const { succeeded } = sweep.counts;
-    if (succeeded !== this.#counted && succeeded > 0) this.#showPeaks(sweep.id);
-    this.#counted = succeeded;
   }
 
   /** @param {Api.ListedSweep} sweep */
@@ -123,18 +125,19 @@ export class SweepRow {
     }
   }
 
-  /** @param {string} id */
-  async #showPeaks(id) {
-    try {
-      const found = await findPeaks(id, this.signal);
-      if (!found) return;
-      const { peak, least, largest } = found;
-      const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
-      this.cells.peaks.replaceChildren(...(least && largest
-        ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
-    } catch (error) {
-      if (error.name !== "AbortError") this.cells.peaks.textContent = "–";
-    }
+  /// Shows the peaks of the jobs that have succeeded; of a sweep under way those of some time ago.
+  async showPeaks() {
+    const { id, counts: { succeeded } } = this.#sweep;
+    const isEarly = isUnderWay(this.#sweep) && performance.now() < this.#askedAt + peaksMs;
+    if (succeeded === this.#counted || isEarly) return;
+    this.#askedAt = performance.now();
+    const found = await findPeaks(id, this.signal);
+    this.#counted = succeeded;
+    if (!found) return;
+    const { peak, least, largest } = found;
+    const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
+    this.cells.peaks.replaceChildren(...(least && largest
+      ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
   }
 }
 
