@@ -2,7 +2,8 @@
 // The list of studies of one kind, up to date by itself.
 import { h } from "/core/dom.js";
 import { moment } from "/core/format.js";
-import { ListOrder, Marked } from "/core/list_tools.js";
+import { ListOrder, Marked, askInSight } from "/core/list_tools.js";
+import { keepRunning, latest } from "/core/live.js";
 import { rememberQuery, routeTo } from "/core/route.js";
 
 /**
@@ -35,8 +36,7 @@ export async function showStudies(main, kind, signal) {
   const list = new StudyList(kind, signal);
   main.replaceChildren(...list.parts());
   await list.refresh();
-  const timer = setInterval(() => list.refresh(), pollMs);
-  signal.addEventListener("abort", () => clearInterval(timer));
+  keepRunning(list.refresh, pollMs, signal);
 }
 
 /** @template {Listed} Item */
@@ -45,7 +45,7 @@ class StudyList {
   items = [];
   /** @type {Map<string, string>} */
   answers = new Map();  // of studies that have ended
-  /** @type {Map<string, { text: string, element: HTMLElement }>} */
+  /** @type {Map<string, { text: string, element: HTMLElement, study: Item }>} */
   rows = new Map();
   body = h("tbody");
   status = h("p", { class: "quiet", role: "status" }, "Loading …");
@@ -57,6 +57,8 @@ class StudyList {
   constructor(kind, signal) {
     this.kind = kind;
     this.signal = signal;
+    this.refresh = latest((current) => this.#load(current), signal);
+    this.learn = askInSight(() => this.rows.values(), ({ study }) => this.#learn(study), signal);
     this.empty = emptyCard(kind);
     /** @type {ListOrder<Item>} */
     this.order = new ListOrder({ name: ["Name", (study) => study.name || study.id],
@@ -85,16 +87,14 @@ class StudyList {
       this.status, this.marked.bar, this.table, this.more, this.empty];
   }
 
-  async refresh() {
+  /** @param {AbortSignal} current */
+  async #load(current) {
     try {
-      const { limit } = this;
-      const { items, next_cursor: next } = await this.kind.api.list({ limit }, this.signal);
-      if (limit !== this.limit) return;  // meanwhile more are asked for
+      const { items, next_cursor: next } = await this.kind.api.list({ limit: this.limit }, current);
       this.items = items;
       this.more.hidden = !next;
       this.status.textContent = next ? `The newest ${items.length}.` : "";
       this.draw();
-      await this.learn();
     } catch (error) {
       if (error.name !== "AbortError") this.status.textContent = `${error.message} Trying again …`;
     }
@@ -110,6 +110,7 @@ class StudyList {
     this.marked.update(items);
     if (this.table) this.table.hidden = items.length === 0;
     this.empty.hidden = items.length > 0;
+    this.learn();
   }
 
   /** @param {Item} study */
@@ -123,19 +124,17 @@ class StudyList {
       h("td", { class: "name" }, h("a", { href: routeTo(kind.route, study.id) }, study.name || study.id)),
       h("td", { class: study.state }, study.state), h("td", {}, kind.aim.textOf(study)),
       kind.answerOf ? h("td", {}, answer) : null, h("td", { class: "fixed" }, moment(study.created_at)));
-    this.rows.set(study.id, { text, element });
+    this.rows.set(study.id, { text, element, study });
     return element;
   }
 
-  /// Answers stand in no listing: each is asked for once.
-  async learn() {
+  /// Learns the answer of a study that has ended, which stands in no listing, once.
+  /** @param {Item} study */
+  async #learn({ id, state }) {
     const { answerOf, api } = this.kind;
-    if (!answerOf) return;
-    for (const { id, state } of this.items) {
-      if (state === "running") this.answers.delete(id);
-      if (state === "running" || this.answers.has(id)) continue;
-      this.answers.set(id, answerOf(await api.find(id, this.signal)));
-      this.draw();
-    }
+    if (state === "running") this.answers.delete(id);
+    if (!answerOf || state === "running" || this.answers.has(id)) return;
+    this.answers.set(id, answerOf(await api.find(id, this.signal)));
+    this.draw();
   }
 }
