@@ -4,12 +4,13 @@
 import { findAnalysis, findTrajectory } from "/core/api.js";
 import { makeChart } from "/core/charts.js";
 import { choice, h } from "/core/dom.js";
-import { number, pointOf, titleOf } from "/core/format.js";
+import { number, plural, pointOf, titleOf } from "/core/format.js";
 import { latest, retryWhileUnreachable } from "/core/live.js";
 import { quantityChoice } from "/core/quantities.js";
 import { lineColour } from "/core/theme.js";
 import { acrossAxis, valueAxis, where } from "/analysis/parts.js";
 
+const mostNamed = 12;  // combinations of axes, each in a colour of its own
 const ofRpsup = ["journal_x_mm", "journal_y_mm", "slider_acceleration_m_s2", "coupler_deflection_mm",
   "contact_force_n"];
 
@@ -57,14 +58,15 @@ export async function bifurcationCard(element, { sweep, numbers, isRpsup, jobId 
 }
 
 function optionOf(rows, others, along, channel) {
-  const names = [...new Set(rows.map((row) => where(row, others)))];
   if (rows.length === 0) return null;
+  const groups = Map.groupBy(rows, (row) => where(row, others));
+  /** @type {[string, any[]][]} */
+  const drawn = groups.size > mostNamed ? [[`${plural(groups.size, "combination")} of the other axes`, rows]] : [...groups];
   return {
-    grid: { left: 75, right: 20, top: 40, bottom: 50 }, legend: { top: 0, show: names.length > 1 },
+    grid: { left: 75, right: 20, top: 40, bottom: 50 }, legend: { top: 0, show: groups.size > 1 },
     tooltip: { formatter: ({ value }) => `${pointOf(along, value[0])}\n${number(value[1])}` },
     xAxis: acrossAxis(titleOf(along)), yAxis: valueAxis(titleOf(channel)),
-    series: names.map((name, index) => ({ name, type: "scatter", symbolSize: 4, color: lineColour(index), large: true,
-      data: rows.filter((row) => where(row, others) === name && row[channel] !== null)
-        .map((row) => [row[along], row[channel]]) })),
+    series: drawn.map(([name, some], index) => ({ name, type: "scatter", symbolSize: 4, color: lineColour(index), large: true,
+      data: some.filter((row) => row[channel] !== null).map((row) => [row[along], row[channel]]) })),
   };
 }
