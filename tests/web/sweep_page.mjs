@@ -138,7 +138,11 @@ test("any number stands over any other in the scatter, whose click selects", asy
   const points = async () => (await drawn(page, 3)).series[0];
   assert.equal((await points()).length, 550, "jobs without a contact force have no place");
   assert.equal(await page.getByRole("combobox", { name: "Colour" }).inputValue(), "crank_velocity_rad_s");
+  // An axis along which the jobs lie needs no colour: another one has it.
+  await page.getByRole("combobox", { name: "Along" }).selectOption("crank_velocity_rad_s");
+  assert.equal(await page.getByRole("combobox", { name: "Colour" }).inputValue(), "clearance_mm");
   await page.getByRole("combobox", { name: "Along" }).selectOption("clearance_mm");
+  assert.equal(await page.getByRole("combobox", { name: "Colour" }).inputValue(), "crank_velocity_rad_s");
   await page.getByRole("combobox", { name: "Upwards" }).selectOption("crank_velocity_rad_s");
   await page.getByRole("combobox", { name: "Colour" }).selectOption("none");
   assert.equal((await drawn(page, 3)).series.length, 1);

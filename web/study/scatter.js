@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The jobs as points over any two of their numbers and parameters, in the colour of a third. A click selects.
 import { axisLook, makeChart, nothingYet, numberLook } from "/core/charts.js";
-import { choice, h } from "/core/dom.js";
+import { choice, h, part } from "/core/dom.js";
 import { nameOf, pointOf, titleOf } from "/core/format.js";
 import { colour, lineColour, linePalette, paletteColour, ring } from "/core/theme.js";
 import { colourBar, colourBarHeight } from "/study/colour_bar.js";
@@ -132,20 +132,19 @@ function textOf(row, names) {
 /// Selects of the two axes and of the colour. @param changed  is called when one has been chosen
 /** @param {SweepPage} sweep  @param {() => void} changed */
 export function scatterChoice(sweep, changed) {
-  const element = h("span", { class: "actions" });
+  const all = [...sweep.axes, ...sweep.metrics].map((name) => [name, titleOf(name)]);
+  const select = (label, key, options) => choice(label, options, "", (chosen) => { sweep.view[key] = chosen; changed(); });
+  const selects = { x: select("Along", "scatterX", all), y: select("Upwards", "scatterY", all),
+    c: select("Colour", "scatterColour", [["none", "none"], ...all]) };
 
   function draw() {
-    const { x, y, c } = namesOf(sweep);
-    const all = [...sweep.axes, ...sweep.metrics].map((name) => [name, titleOf(name)]);
-    const select = (label, key, value, options) => {
-      const labelled = choice(label, options, value, (chosen) => { sweep.view[key] = chosen; changed(); });
-      Object.assign(labelled.dataset, { kind: "metrics", quantity: value });
-      return labelled;
-    };
-    if (element.contains(document.activeElement)) return;  // the select that has the focus keeps it
-    element.replaceChildren(select("Along", "scatterX", x, all), select("Upwards", "scatterY", y, all),
-      select("Colour", "scatterColour", c || "none", [["none", "none"], ...all]));
+    const names = namesOf(sweep);
+    for (const [key, element] of Object.entries(selects)) {
+      const value = names[key] || "none";
+      part("select", element).value = value;
+      Object.assign(element.dataset, { kind: "metrics", quantity: value });
+    }
   }
 
-  return { element, draw };
+  return { element: h("span", { class: "actions" }, ...Object.values(selects)), draw };
 }
