@@ -5,7 +5,7 @@ import { findTrajectory } from "/core/api.js";
 
 const framesPerStretch = 120;
 const leastSamples = 400;
-const mostStretches = 24;
+const mostNumbers = 4e6;  // in memory: 32 MB
 const againMs = 2000;  // until a stretch that failed is asked for again
 const parts = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
 
@@ -53,9 +53,16 @@ export class Poses {
     if (!this.#stretches.has(key)) this.#load(known, index * length, (index + 1) * length, key);
     this.#stretches.delete(key);
     this.#stretches.set(key, known);  // the newest used stands last
-    const [oldest] = this.#stretches.keys();
-    if (this.#stretches.size > mostStretches) this.#stretches.delete(oldest);
     return known;
+  }
+
+  /// Forgets the stretches used longest ago, where all have too many numbers. That of the instant and the next one stay.
+  #forget() {
+    let numbers = 0;
+    [...this.#stretches].reverse().forEach(([key, { columns }], age) => {
+      numbers += columns ? columns.t_s.length * this.channels.length : 0;
+      if (age > 1 && numbers > mostNumbers) this.#stretches.delete(key);
+    });
   }
 
   async #load(stretch, from, to, key) {
@@ -66,6 +73,7 @@ export class Poses {
       const range = { from: Math.max(0, from - 1 / rate), to: Math.min(end, to + 1 / rate) };
       stretch.columns = await findTrajectory(this.job.id, { channels: ["t_s", ...this.channels], ...range, points },
         this.signal);
+      this.#forget();
       this.loaded(null);
     } catch (error) {
       if (error.name === "AbortError") return;
