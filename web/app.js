@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows the view that the address names, and gives it up when the address changes.
-import { findHealth, isUnreachable } from "/core/api.js";
+import { findHealth, isTransient } from "/core/api.js";
 import { startDefinitions } from "/core/definition.js";
 import { readRoute } from "/core/route.js";
 import { h, part } from "/core/dom.js";
@@ -89,7 +89,7 @@ async function show() {
   } catch (error) {
     if (number !== shown || error.name === "AbortError") return;
     if (error instanceof Missing) sayMissing(error, ended.signal);
-    else if (isUnreachable(error)) {
+    else if (isTransient(error)) {
       say(`${error.message} Trying again …`);
       whenBack(ended.signal).then(() => (page ? show() : location.reload()), () => {});
     } else say(error.message);

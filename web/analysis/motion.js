@@ -34,7 +34,7 @@ export function motionCard(job, columns, signal) {
   return details;
 }
 
-/// Loads again until the service can be reached, and tells why that takes so long or fails.
+/// Loads again while the service is away or busy, and tells why that takes so long or fails.
 /** @param {() => Promise<void>} load  @param {HTMLElement} trouble  @param {AbortSignal} signal */
 function retried(load, trouble, signal) {
   const tell = (text) => { trouble.textContent = text; };

@@ -12,9 +12,9 @@ export class Refusal extends Error {
   }
 }
 
-/// True if the service does not answer, or if something in front of it says so. Asking again may help, as
-/// while it starts anew.
-export const isUnreachable = (error) =>
+/// True of an error that may pass: the service, or something in front of it, does not answer, starts anew or is busy.
+/// Asking again may help.
+export const isTransient = (error) =>
   error.name === "Unreachable" || [502, 503, 504].includes(error.status);
 
 /// The service does not answer.
@@ -80,7 +80,7 @@ async function submit(path, body, type) {
     return answer;
   } catch (error) {
     // 409: the first one is still being stored.
-    if (isUnreachable(error) || error.status === 409) unanswered.set(sent, key);
+    if (isTransient(error) || error.status === 409) unanswered.set(sent, key);
     else unanswered.delete(sent);
     throw error;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Order of lists, items that are marked to be deleted together, and questions about the rows in sight.
-import { isUnreachable } from "/core/api.js";
+import { isTransient } from "/core/api.js";
 import { confirmed } from "/core/dialog.js";
 import { choice, h, isNear, notify } from "/core/dom.js";
 import { debounce, inTurn } from "/core/live.js";
@@ -168,7 +168,7 @@ export class Marked {
 }
 
 /// A function that asks about the rows in sight, or nearly so, one after the other. It is called after scrolling, too.
-/// @param ask  of a row, which does nothing where all is known. Without a service the questions end until the next call.
+/// @param ask  of a row, which does nothing where all is known. While the service is away or busy, the questions end until the next call.
 /**
  * @template {{ element: HTMLElement }} Row
  * @param {() => Iterable<Row>} rows
@@ -181,7 +181,7 @@ export function askInSight(rows, ask, signal) {
       try {
         await ask(row);
       } catch (error) {
-        if (error.name === "AbortError" || isUnreachable(error)) return;
+        if (error.name === "AbortError" || isTransient(error)) return;
       }
     }
   });

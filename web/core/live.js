@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows sweeps and studies as they run: by server-sent events, and by asking again where those are not to be had.
-import { eventsUrl, findSweep, isUnreachable } from "/core/api.js";
+import { eventsUrl, findSweep, isTransient } from "/core/api.js";
 
 const pollMs = 2000;
 
@@ -65,7 +65,7 @@ async function poll(source, told, signal) {
   return undefined;
 }
 
-/// Result of a function that asks the service; it is called again until the service can be reached.
+/// Result of a function that asks the service; it is called again while the service is away or busy.
 /// @param tell  is given what there is to say meanwhile, and "" at the end
 /**
  * @template Found
@@ -81,7 +81,7 @@ export async function retryWhileUnreachable(asked, tell, signal) {
       tell("");
       return found;
     } catch (error) {
-      if (!isUnreachable(error)) throw error;
+      if (!isTransient(error)) throw error;
       tell(`${error.message} Trying again …`);
     }
     await pause(pollMs, signal);
