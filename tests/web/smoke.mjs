@@ -468,7 +468,7 @@ test("a search is begun in its form, draws its limits and is deleted", async () 
   // By the keyboard alone, as far as that goes.
   await page.getByLabel("Name", { exact: true }).focus();
   await page.keyboard.type("how far");
-  for (const [label, text] of [["From [mm]", "0.05"], ["To [mm]", "0.5"], ["Tolerance [mm]", "0.1"], ["Initial values", "3"], ["Bound [m/s²]", "low"]]) {
+  for (const [label, text] of [["From [mm]", "0.05"], ["To [mm]", "0.5"], ["Tolerance [mm]", "0.1"], ["Number of initial values", "3"], ["Bound [m/s²]", "low"]]) {
     await page.getByLabel(label, { exact: true }).focus();
     await page.keyboard.type(text);
   }

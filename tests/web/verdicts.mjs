@@ -56,7 +56,7 @@ test("a limit that was not exceeded says at how many values was looked, and has 
   assert.deepEqual((await cells(page, "Limits"))[0].slice(1, 4), ["not exceeded at any of the 3 values looked at Look at more", "beyond 0.3", "3"]);
   await page.getByRole("link", { name: "Look at more" }).click();
   await page.waitForURL(/searches\/new/);
-  assert.equal(await page.getByLabel("Initial values").inputValue(), "5");
+  assert.equal(await page.getByLabel("Number of initial values").inputValue(), "5");
   await page.goBack();
   assert.equal(await page.getByText(/in all/).count(), 0);
   await page.locator(".chart canvas").nth(1).waitFor();

@@ -176,7 +176,7 @@ export class RequestForm {
     const { replicates } = this.state;
     return [this.text("Replicates", replicates, "count", { type: "number", min: 1 }),
       this.text("Relative perturbation of the contact stiffness", replicates, "perturbation"),
-      this.text("Factor of both tolerances in all but the first", replicates, "tolerance_factor"),
+      this.text("Tolerance factor of replicates 1, 2, …", replicates, "tolerance_factor"),
       this.text("Seed", replicates, "seed", { type: "number" }),
       this.text("Values with replicates (JSON; empty: all)", replicates, "only", { size: 40 })];
   }

@@ -52,7 +52,7 @@ export class SearchForm extends StudyForm {
       this.told("over.scale", "Spacing", over, "scale", "Bisection of differences (linear) or of ratios (logarithmic)",
         [["linear", "linear"], ["log", "logarithmic"]]),
       this.told("over.tolerance", "Tolerance", over, "tolerance", help("tolerance")),
-      this.told("over.first", "Initial values", over, "first", help("first")),
+      this.told("over.first", "Number of initial values", over, "first", help("first")),
       this.told("metric", "Metric", values, "metric", "Metric that must not exceed the bound", null, metrics),
       this.number("bound"), this.number("quantile"),
       h("h2", {}, "Linkage and axes"),

@@ -136,6 +136,7 @@ export class SweepRow {
     if (!found) return;
     const { peak, least, largest } = found;
     const link = (row) => h("a", { href: routeTo("jobs", row.job_id) }, number(row[peak]));
+    this.cells.peaks.title = nameOf(peak);
     this.cells.peaks.replaceChildren(...(least && largest
       ? [link(least), " … ", link(largest), ` ${unitOf(peak)}`] : ["–"]));
   }
