@@ -2,13 +2,13 @@
 #include "jobs/exports/write_trajectories.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "jobs/base/errors.h"
+#include "jobs/base/size_text.h"
 #include "jobs/results/resource_json.h"
 #include "jobs/store/store_lock.h"
 #include "jobs/trajectories/trajectory_codec.h"
@@ -16,7 +16,6 @@
 namespace jobs {
 namespace {
 
-constexpr double kMegabyte = 1e6;
 constexpr double kMostMatBytes = 2147483648.0;  // of one variable of level 5
 
 /// Trajectory of a job, which is read twice: to know how much there is, and to write it.
@@ -116,10 +115,9 @@ void check_room(const std::filesystem::path& file, double bytes, std::int64_t re
   const auto space = std::filesystem::space(std::filesystem::absolute(file).parent_path(), unknown);
   const auto reserve = static_cast<double>(reserve_bytes);
   if (unknown || static_cast<double>(space.available) > bytes + reserve) return;
-  const auto megabytes = [](double size) { return std::to_string(std::llround(size / kMegabyte)) + " MB"; };
-  throw StoreLimitReached("the file may take " + megabytes(bytes) + " and the disk has " +
-                          megabytes(static_cast<double>(space.available)) + " left" +
-                          (reserve > 0.0 ? ", of which " + megabytes(reserve) + " are kept free" : "") +
+  throw StoreLimitReached("the file may take " + size_text(bytes) + " and the disk has " +
+                          size_text(static_cast<double>(space.available)) + " left" +
+                          (reserve > 0.0 ? ", of which " + size_text(reserve) + " are kept free" : "") +
                           "; ask for fewer channels, or for a part of the time");
 }
 

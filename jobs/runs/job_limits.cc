@@ -3,18 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "jobs/base/size_text.h"
 #include "jobs/parameters/job_spec.h"
 #include "jobs/requests/parameters.h"
 
 namespace jobs {
-
-namespace {
-
-std::string megabytes(double bytes) { return std::to_string(std::lround(std::ceil(bytes * 1e-6))) + " MB"; }
-
-}  // namespace
 
 JobSpec within_limits(JobSpec spec, const JobLimits& limits) {
   if (limits.steps > 0) spec.options.step_limit = std::min(spec.options.step_limit, limits.steps);
@@ -25,8 +19,8 @@ JobSpec within_limits(JobSpec spec, const JobLimits& limits) {
   if (has_more_channels(spec, static_cast<double>(limits.memory_bytes) / channel_bytes)) {
     const double needed = channel_bytes * static_cast<double>(channel_table(spec).size());
     throw NeedsTooMuchMemory(
-        "the trajectory takes " + megabytes(needed) + " while the job runs; this service allows " +
-        megabytes(static_cast<double>(limits.memory_bytes)) + ": lower output_rate_hz or duration_s");
+        "the trajectory takes " + size_text(needed) + " while the job runs; this service allows " +
+        size_text(static_cast<double>(limits.memory_bytes)) + ": lower output_rate_hz or duration_s");
   }
   return spec;
 }

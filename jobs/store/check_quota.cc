@@ -3,22 +3,20 @@
 
 #include <cstdint>
 #include <limits>
-#include <string>
 
 #include <sys/statvfs.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/base/size_text.h"
 
 namespace jobs {
-
-std::string in_megabytes(std::int64_t bytes) { return std::to_string(bytes / 1'000'000) + " MB"; }
 
 namespace {
 
 void check_store(SQLite::Statement& used, std::int64_t most_bytes) {
   used.executeStep();
   if (used.getColumn(0).getInt64() <= most_bytes) return;
-  throw StoreSizeReached("the store may hold " + in_megabytes(most_bytes) +
+  throw StoreSizeReached("the store may hold " + size_text(static_cast<double>(most_bytes)) +
                          " and has no room for this; delete sweeps that are not needed any more");
 }
 
@@ -34,8 +32,8 @@ void check_disk(const std::filesystem::path& file, std::int64_t reserve_bytes) {
   const std::int64_t left = find_bytes_left(file);
   if (left >= reserve_bytes) return;
   throw StoreLimitReached(
-      "the disk that holds the store has " + in_megabytes(left) + " left, and " +
-      in_megabytes(reserve_bytes) +
+      "the disk that holds the store has " + size_text(static_cast<double>(left)) + " left, and " +
+      size_text(static_cast<double>(reserve_bytes)) +
       " of it are kept free; make room on it, or delete sweeps that are not needed any more");
 }
 

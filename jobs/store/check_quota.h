@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -21,9 +20,6 @@ inline constexpr const char* kUsedBytesQuery =
 /// @param file  of the store
 /// @throws StoreLimitReached if it may not
 void check_quota(SQLite::Statement& used, const StoreQuota& quota, const std::filesystem::path& file);
-
-/// "12 MB", for texts.
-[[nodiscard]] std::string in_megabytes(std::int64_t bytes);
 
 /// Bytes that the disk of a file has left; of a disk that does not tell, the largest number: writing finds
 /// out what there is.

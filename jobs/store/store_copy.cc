@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "jobs/base/errors.h"
+#include "jobs/base/size_text.h"
 #include "jobs/store/check_quota.h"
 #include "jobs/store/store.h"
 #include "jobs/store/store_connection.h"
@@ -33,8 +34,8 @@ void check_room_for_copy(SQLite::Database& store, const std::filesystem::path& f
   const std::int64_t needed = store.execAndGet(kUsedBytesQuery).getInt64();
   const std::int64_t left = find_bytes_left(file);
   if (needed < left) return;
-  throw StoreLimitReached("the copy takes " + in_megabytes(needed) + " and the disk has " +
-                          in_megabytes(left) + " left; make room on it");
+  throw StoreLimitReached("the copy takes " + size_text(static_cast<double>(needed)) + " and the disk has " +
+                          size_text(static_cast<double>(left)) + " left; make room on it");
 }
 
 int ask_whether_to_stop(void* stop) { return (*static_cast<const std::function<bool()>*>(stop))() ? 1 : 0; }
