@@ -83,7 +83,6 @@ std::optional<SweepContents> read_contents(const SweepReader& reader, const Swee
   for (std::size_t row = 0; row < sweep.rows.size(); ++row) {
     if (stop()) return std::nullopt;
     const std::string& id = sweep.rows[row].job_id;
-    if (!sweep.rows[row].metrics) continue;
     const bool has_one =
         read_stored(reader, id, [&](const StoredBytes& blob) { add_job(blob, wanted, contents); });
     if (has_one) contents.jobs.push_back({name_of_job(row), id});

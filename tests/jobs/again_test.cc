@@ -2,6 +2,8 @@
 // Sweeps that are extended, tried again, sent again and watched.
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -401,6 +403,21 @@ TEST(FileOfTrajectories, LeavesTheReserveOfTheDisk) {
   const jobs::Service service(options);
   EXPECT_THROW((void)service.write_trajectories(id, npz, folder / "second.npz"), jobs::StoreLimitReached);
   EXPECT_FALSE(std::filesystem::exists(folder / "second.npz"));
+}
+
+TEST(FileOfTrajectories, HasThoseOfRunsThatFailed) {
+  const TemporaryStore temporary;
+  FakeEngine engine;
+  const auto file = temporary.file().parent_path() / "all.npz";
+  jobs::Service service(options_of(temporary, engine, 1));
+  const std::string id = submit(service, R"({"sweep": {"restitution": [0.5]}})");
+  await(service, id);
+  const std::string job = first_job(service, id);
+  ASSERT_EQ(service.find_job(job)->at("state"), "failed");
+  EXPECT_TRUE(service.write_trajectories(id, {.format = jobs::TrajectoryFileFormat::kNpz}, file));
+  std::ifstream written(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(written), {}};
+  EXPECT_NE(bytes.find("trajectories/job_0001/t_s"), std::string::npos);
 }
 
 TEST(CopyOfTheStore, IsAStoreWithAllOfIt) {
