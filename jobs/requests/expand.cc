@@ -214,15 +214,25 @@ std::uint64_t count_replicates(const json& completed, const Replicates& replicat
   return replicates.count;
 }
 
-/// Gives the k-th replicate the contact stiffness of the point, perturbed. @throws InvalidRequest if that is
-/// out of its range
-void perturb(const json& completed, const Replicates& replicates, std::uint64_t k, json& replicate) {
-  const double scale = completed.at(kStiffnessKey).get<double>() *
-                       replicate_factor(replicates.seed, k, replicates.perturbation);
-  replicate[kStiffnessKey] = scale;
-  if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), scale); !detail.empty())
+/// A contact stiffness times the factor of a replicate. @throws InvalidRequest if that is out of its range
+double perturbed(const json& scale, double factor) {
+  const double moved = factor * scale.get<double>();
+  if (const std::string detail = describe_fault(*find_parameter(kStiffnessKey), moved); !detail.empty())
     throw InvalidRequest(std::vector<Fault>{
         {"/replicates/perturbation", "moves contact_stiffness_scale out of its range: it " + detail}});
+  return moved;
+}
+
+/// Gives the k-th replicate the contact stiffness of the point, perturbed, also in the joints of a described
+/// linkage that have their own. @throws InvalidRequest if one is out of its range
+void perturb(const json& completed, const Replicates& replicates, std::uint64_t k, json& replicate) {
+  const double factor = replicate_factor(replicates.seed, k, replicates.perturbation);
+  replicate[kStiffnessKey] = perturbed(completed.at(kStiffnessKey), factor);
+  if (k == 0 || !describes_linkage(completed)) return;
+  for (const auto& [name, joint] : completed[kLinkageKey].at("joints").items())
+    if (joint.contains("clearance") && joint["clearance"].contains(kStiffnessKey))
+      replicate[kLinkageKey]["joints"][name]["clearance"][kStiffnessKey] =
+          perturbed(joint["clearance"][kStiffnessKey], factor);
 }
 
 /// Gives a replicate the tolerances of the point times the factor. @throws InvalidRequest if one is too small

@@ -9,6 +9,7 @@
 #include "jobs/base/executor_names.h"
 #include "jobs/parameters/kept_results.h"
 #include "jobs/parameters/link_parameters.h"
+#include "jobs/parameters/parameter_table.h"
 #include "jobs/parameters/parameter_value.h"
 #include "jobs/requests/axis.h"
 #include "jobs/requests/parameter_path.h"
@@ -51,6 +52,7 @@ class SweepParser {
     read_priority();
     read_executor();
     read_replicates();
+    find_first_values();
     read_parameters();
     check_cases_shape();
     check_size();
@@ -164,10 +166,31 @@ class SweepParser {
         fault(pointer + pointer_token(std::to_string(i)), each.detail);
   }
 
+  /// Finds the first values of the job's parameters that the sweep varies, but for those with faults.
+  void find_first_values() {
+    const auto take = [this](const std::string& key, const json& value) {
+      if (find_parameter(key) != nullptr && find_path_faults(key, value).empty()) one_job_[key] = value;
+    };
+    const auto take_first = [&](const ordered_json& varied) {
+      if (!varied.is_object()) return;
+      for (const auto& [key, values] : varied.items()) {
+        if (values.is_array() && !values.empty()) take(key, values[0]);
+        else if (values.is_object() && values.contains("from")) take(key, values.at("from"));
+      }
+    };
+    take_first(request_.value("sweep", ordered_json()));
+    const ordered_json design = request_.value("design", ordered_json());
+    if (design.is_object()) take_first(design.value("over", ordered_json()));
+    const ordered_json cases = request_.value("cases", ordered_json());
+    if (!cases.is_array() || cases.empty() || !cases[0].is_object()) return;
+    for (const auto& [key, value] : cases[0].items()) take(key, value);
+  }
+
   void read_parameters() {
     if (request_.contains("parameters")) sweep_.parameters = request_.at("parameters");
     // The steps below rely on parameters without faults.
     if (!check_values(sweep_.parameters, "/parameters")) sweep_.parameters = json::object();
+    one_job_.update(sweep_.parameters);
     if (!request_.contains(kKeepKey)) return;
     const json keep = request_.at(kKeepKey);
     if (std::string detail = describe_keep_fault(keep); !detail.empty())
@@ -181,7 +204,7 @@ class SweepParser {
   /// with several values tells where those stand.
   /// @returns true if there are none
   bool check_values(const json& given, const std::string& pointer) {
-    const std::vector<Fault> found = find_value_faults(given, sweep_.parameters);
+    const std::vector<Fault> found = find_value_faults(given, one_job_);
     for (const Fault& each : found) {
       const bool several =
           takes_one_value(each.pointer) && given.at(json::json_pointer(each.pointer)).is_structured();
@@ -344,6 +367,8 @@ class SweepParser {
   std::uint64_t case_count_ = 1;
   std::uint64_t design_points_ = 0;  ///< 0: there is no design, or it has faults
   SweepRequest sweep_;
+  /// Parameters of one of the jobs. Descriptions are judged beside them.
+  json one_job_ = json::object();
   std::vector<Fault> faults_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -188,6 +189,40 @@ TEST(LinkageSweep, ComparesReplicatesByTheMetricThatIsChosen) {
   expect_statistics_of(*service.find_results(id, {.metric = metric}), metric);
   EXPECT_EQ(pointers_of(faults_of([&] { (void)service.find_results(id, {.metric = "no_metric"}); })),
             std::vector<std::string>{"/metric"});
+}
+
+// The bore is too narrow for the default clearance, which no job of these has.
+TEST(LinkageSweep, JudgesADescriptionWithTheValuesOfItsJobs) {
+  json parameters = example("slider_crank");
+  parameters.erase("clearance_mm");
+  parameters["linkage"]["joints"]["slider_pin"]["clearance"]["bearing_radius_mm"] = 0.2;
+  const auto faults = [&](const json& varied) {
+    json request = varied;
+    request["parameters"] = parameters;
+    return pointers_of(faults_of([&] { (void)jobs::plan_sweep(request, 100); }));
+  };
+  const std::vector<std::string> none;
+  EXPECT_EQ(faults({{"sweep", {{"clearance_mm", {0.05, 0.1}}}}}), none);
+  EXPECT_EQ(faults({{"sweep", {{"clearance_mm", {{"from", 0.05}, {"to", 0.1}, {"count", 3}}}}}}), none);
+  EXPECT_EQ(faults({{"cases", {{{"clearance_mm", 0.05}}, {{"clearance_mm", 0.1}}}}}), none);
+  EXPECT_EQ(faults({{"design", {{"type", "latin_hypercube"}, {"count", 4},
+                                {"over", {{"clearance_mm", {{"from", 0.05}, {"to", 0.1}}}}}}}}), none);
+  EXPECT_NE(faults(json::object()), none);
+  EXPECT_NE(faults({{"sweep", {{"clearance_mm", {0.05, 0.25}}}}}), none);
+}
+
+TEST(LinkageSweep, PerturbsJointsWithAStiffnessOfTheirOwn) {
+  json parameters = example("slider_crank");
+  json& clearance = parameters["linkage"]["joints"]["crank_pin"]["clearance"];
+  clearance["contact_stiffness_scale"] = 2.0;
+  const jobs::SweepPlan plan = jobs::plan_sweep(
+      {{"parameters", parameters}, {"replicates", {{"count", 3}, {"perturbation", 1e-4}, {"seed", 7}}}}, 100);
+  ASSERT_EQ(plan.jobs.size(), 3U);
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const json run = json::parse(plan.jobs[k].parameters);
+    EXPECT_EQ(run["linkage"]["joints"]["crank_pin"]["clearance"]["contact_stiffness_scale"],
+              2.0 * jobs::replicate_factor(7, k, 1e-4));
+  }
 }
 
 TEST(LinkageSweep, RefusesWhatIsNoPlaceOrNoValueOfTheDescription) {
