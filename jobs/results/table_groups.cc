@@ -42,18 +42,28 @@ bool varies(const ResultTable& table, std::size_t column) {
 /// Time of a peak, by the end of its name.
 bool is_time(std::string_view metric) { return metric.ends_with("_time_s"); }
 
-/// Coordinates of a described linkage that move by a law: "crank", or "guide_slide" of several freedoms.
-std::vector<std::string> driven_coordinates(const nlohmann::json& sweep) {
-  const auto joints = nlohmann::json::json_pointer("/request/parameters/linkage/joints");
-  std::vector<std::string> driven;
-  if (!sweep.contains(joints)) return driven;
+/// Adds the coordinates that move by a law in the linkage that parameters describe, if they do: "crank", or
+/// "guide_slide" of several freedoms.
+void add_driven_coordinates(const nlohmann::json& parameters, std::vector<std::string>& driven) {
+  const auto joints = nlohmann::json::json_pointer("/linkage/joints");
+  if (!parameters.contains(joints)) return;
   const auto law = nlohmann::json::json_pointer("/drive/law");
-  for (const auto& [name, joint] : sweep.at(joints).items()) {
+  for (const auto& [name, joint] : parameters.at(joints).items()) {
     if (joint.contains(law)) driven.push_back(name);
     const auto freedoms = joint.value("freedoms", nlohmann::json::object());
     for (const auto& [part, freedom] : freedoms.items())
       if (freedom.contains(law)) driven.push_back(name + "_" + part);
   }
+}
+
+/// The same of a sweep's parameters and of all its cases.
+std::vector<std::string> driven_coordinates(const nlohmann::json& sweep) {
+  std::vector<std::string> driven;
+  if (!sweep.contains("request")) return driven;
+  const nlohmann::json& request = sweep.at("request");
+  add_driven_coordinates(request.value("parameters", nlohmann::json::object()), driven);
+  for (const auto& each : request.value("cases", nlohmann::json::array()))
+    add_driven_coordinates(each, driven);
   return driven;
 }
 

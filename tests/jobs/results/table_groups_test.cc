@@ -28,6 +28,15 @@ TEST(ChooseFreeMetric, LeavesOutWhatADrivePrescribes) {
             "peak_crank_acceleration_rad_s2");
 }
 
+TEST(ChooseFreeMetric, LeavesOutWhatADriveOfACasePrescribes) {
+  const auto sweep = nlohmann::json::parse(
+      R"({"request": {"cases": [{"linkage": {"joints": {"crank": {"drive": {"law": "harmonic"}}}}}]}})");
+  const ResultTable table{
+      .columns = {"job_id", "state", "peak_crank_acceleration_rad_s2", "peak_rod_reaction_n"},
+      .rows = {{"a", "succeeded", 110.0, 3.0}, {"b", "succeeded", 120.0, 4.0}}};
+  EXPECT_EQ(choose_free_metric(sweep, table, ""), "peak_rod_reaction_n");
+}
+
 TEST(ChooseFreeMetric, IsOfAFreeCoordinateWhoseNameEndsInADrivenOne) {
   const ResultTable table{.columns = {"job_id", "state", "peak_crank_acceleration_rad_s2", "rms_crank_acceleration_rad_s2",
                                       "peak_big_crank_acceleration_rad_s2"},
