@@ -47,10 +47,14 @@ std::string find_variable(const json& table, engine::Motion motion) {
 }
 
 void check_effort_table(const json& table, const EffortKeys& effort, engine::Motion motion,
-                        const std::string& pointer, std::vector<Fault>& faults) {
+                        EffortVariables variables, const std::string& pointer, std::vector<Fault>& faults) {
   const std::string variable = find_variable(table, motion);
   if (variable.empty()) {
     const auto [times, positions, velocities] = variable_keys(motion);
+    if (variables == EffortVariables::kTime) {
+      faults.push_back({pointer + pointer_token(times), "is missing"});
+      return;
+    }
     faults.push_back({pointer, "must have one of " + times + ", " + positions + " and " + velocities});
     return;
   }
@@ -66,7 +70,8 @@ void check_effort(const json& effort, const EffortKeys& of, engine::Motion motio
   const std::size_t before = faults.size();
   check_fields(is_known ? effort : json{{"law", effort.value("law", json())}},
                effort_fields(of, law, motion, variables), pointer, faults);
-  if (faults.size() == before && law == "table") check_effort_table(effort, of, motion, pointer, faults);
+  if (faults.size() == before && law == "table")
+    check_effort_table(effort, of, motion, variables, pointer, faults);
 }
 
 void check_controller(const json& controller, const EffortKeys& effort, engine::Motion motion,
