@@ -226,7 +226,8 @@ class LinkageMaker {
     return second;
   }
 
-  /// Freedoms of a joint of a cross, with clearance or without.
+  /// Freedoms of a joint of a cross, with clearance or without. It is in no description; `shown` stands for
+  /// its own, to name the freedoms with play.
   void add_freedoms(engine::LinkageJoint& joint, const json& given) const {
     const json shown{{"kind", "revolute"}, {"axis", std::string(1, "xyz"[static_cast<int>(joint.axes[0])])},
                      {"clearance", json::object()}};

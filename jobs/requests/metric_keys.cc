@@ -24,7 +24,8 @@ bool has_positive(const json& values) {
                                 : values.is_number() && values.get<double>() > 0.0;
 }
 
-/// Gives each joint of the described linkage clearance that has some by one of the values.
+/// Gives joints of the described linkage that have clearance by one of the values alone the least one: only
+/// joints with clearance have metrics of contact.
 /// @param values  by their paths
 void add_clearances(const json& values, json& parameters) {
   for (const auto& [path, given] : values.items())
