@@ -55,34 +55,47 @@ std::string job_events_text(const std::vector<jobs::SweepNews::JobEvent>& events
 
 class Events final : public EventSource {
  public:
-  Events(const jobs::Service& service, FindNews find_news, std::int64_t after)
-      : service_(service), find_news_(std::move(find_news)), after_(after) {}
+  /// @param first     news since `after`
+  /// @param activity  the service's activity counter before they were found
+  Events(const jobs::Service& service, FindNews find_news, std::int64_t after, jobs::SweepNews first,
+         std::uint64_t activity)
+      : service_(service),
+        find_news_(std::move(find_news)),
+        after_(after),
+        first_(std::move(first)),
+        seen_(activity) {}
 
   std::string next() override {
+    if (first_) return text_of(*std::exchange(first_, std::nullopt));
     const std::uint64_t activity = service_.activity();
-    if (seen_ && *seen_ == activity) return "";
+    if (seen_ == activity) return "";
     seen_ = activity;
     const auto news = find_news_(after_);
     if (!news) {  // the sweep or study has been deleted
       ended_ = true;
       return "";
     }
-    std::string text = job_events_text(news->jobs);
-    if (!news->jobs.empty()) after_ = news->jobs.back().change;
-    if (news->progress != progress_) text += event_text("progress", progress_ = news->progress, "");
-    ended_ = news->ended;
-    if (ended_) text += event_text("done", progress_, std::to_string(after_) + std::string(kDoneSuffix));
-    return text;
+    return text_of(*news);
   }
 
   [[nodiscard]] bool has_ended() const override { return ended_; }
 
  private:
+  std::string text_of(const jobs::SweepNews& news) {
+    std::string text = job_events_text(news.jobs);
+    if (!news.jobs.empty()) after_ = news.jobs.back().change;
+    if (news.progress != progress_) text += event_text("progress", progress_ = news.progress, "");
+    ended_ = news.ended;
+    if (ended_) text += event_text("done", progress_, std::to_string(after_) + std::string(kDoneSuffix));
+    return text;
+  }
+
   const jobs::Service& service_;
   const FindNews find_news_;
   std::int64_t after_;
-  std::optional<std::uint64_t> seen_;  ///< the service's activity counter at the last query
-  nlohmann::json progress_;            ///< last progress sent
+  std::optional<jobs::SweepNews> first_;  ///< not sent yet
+  std::uint64_t seen_;                    ///< the service's activity counter before the last query
+  nlohmann::json progress_;               ///< last progress sent
   bool ended_ = false;
 };
 
@@ -91,7 +104,8 @@ class Events final : public EventSource {
 Response answer_events(const RequestContext& context, FindNews find_news, const HttpError& missing) {
   Query(context.request, {}).check();
   const LastEvent last = read_last_event(context.request.last_event_id);
-  const auto news = find_news(last.change);
+  const std::uint64_t activity = context.service.activity();
+  auto news = find_news(last.change);
   if (!news) throw missing;
   if (last.done && news->ended && news->jobs.empty())
     return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
@@ -99,7 +113,8 @@ Response answer_events(const RequestContext& context, FindNews find_news, const 
                     .content_type = "text/event-stream",
                     .body = {},
                     .headers = {{"Cache-Control", "no-store"}}};
-  response.events = std::make_shared<Events>(context.service, std::move(find_news), last.change);
+  response.events = std::make_shared<Events>(context.service, std::move(find_news), last.change,
+                                             std::move(*news), activity);
   return response;
 }
 
