@@ -59,14 +59,18 @@ struct WatchOptions {
 };
 
 /// Shows on standard error how far a sweep, a job or a study is, until it has ended: a bar and the running
-/// jobs on a terminal, lines elsewhere. A service that does not answer for a while (it is started again, say)
-/// is asked again.
+/// jobs on a terminal, lines elsewhere. A service that is busy, or does not answer for a while (it is started
+/// again, say), is asked again.
 /// @returns kJobFailed unless every job has succeeded; kInterrupted if the user ended the watching, not the
 /// sweep
 int watch(const WatchOptions& options);
 
 /// The same of a resource. @returns it as it ended; empty if the user ended the watching
 std::optional<RemoteService::Json> follow(RemoteService& service, Kind kind, const std::string& id);
+
+/// A part of a resource that has ended, as RemoteService::get_part(), asked for with the same patience.
+std::string fetch_part(RemoteService& service, Kind kind, const std::string& id, std::string_view part,
+                       const std::string& media_type);
 
 struct ResultsOptions {
   RemoteOptions remote;

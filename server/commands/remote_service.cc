@@ -2,6 +2,7 @@
 #include "server/commands/remote_service.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <stdexcept>
 #include <string_view>
@@ -20,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kUnauthorized = 401;
 constexpr int kForbidden = 403;
-constexpr int kTooManyRequests = 429;
+constexpr std::array kBusy{429, 502, 503, 504};  // the others of 5xx are no matter of time
 ServiceUrl checked_url(const std::string& url) {
   const auto parsed = parse_service_url(url);
   if (!parsed)
@@ -162,11 +163,12 @@ void RemoteService::check(const HttpClient::Answer& answer) const {
     throw BadInput(url_ + " refuses the request (" + status +
                    "): give the right token by --token-file or RPSUP_TOKEN");
   }
+  const std::string detail = problem ? text_at(*problem, "detail") : "";
+  if (std::ranges::find(kBusy, answer.status) != kBusy.end())
+    throw Busy(url_ + " cannot do it now (" + status + ")" + (problem ? ": " + detail : ""));
   if (!problem)
     throw std::runtime_error(url_ + " answers " + status + ", but not as this service does. Is --url right?");
-  const std::string detail = text_at(*problem, "detail");
-  if (answer.status >= 500 || answer.status == kTooManyRequests)
-    throw std::runtime_error(url_ + " cannot do it now (" + status + "): " + detail);
+  if (answer.status >= 500) throw std::runtime_error(url_ + " cannot do it now (" + status + "): " + detail);
   auto faults = faults_of(*problem);
   if (!faults.empty()) throw jobs::InvalidRequest(std::move(faults));
   throw BadInput(detail);

@@ -27,9 +27,15 @@ struct RemoteOptions {
 /// Keys and values of a query string, in their order.
 using QueryItems = std::vector<std::pair<std::string, std::string>>;
 
+/// The service, or a proxy in front of it, cannot answer now: it may if it is asked again.
+class Busy : public Unreachable {
+ public:
+  using Unreachable::Unreachable;
+};
+
 /// A service that runs elsewhere, as the commands use it. Its refusals become what run_guarded() tells:
-/// jobs::InvalidRequest where it names faults, BadInput for what else is the user's to mend,
-/// std::runtime_error for what is the service's or the network's.
+/// jobs::InvalidRequest where it names faults, BadInput for what else is the user's to mend, Busy for 429,
+/// 502, 503 and 504, std::runtime_error for what else is the service's or the network's.
 class RemoteService {
  public:
   using Json = nlohmann::ordered_json;

@@ -184,7 +184,7 @@ std::optional<json> compute_by_service(Kind kind, ordered_json request, const Sw
   const auto ended = follow(service, kind, id);
   if (!ended) return std::nullopt;
   const std::string media_type(info_of(check_results(options)).media_type);
-  write_text(options.results, service.get_part(kind, id, "results", media_type));
+  write_text(options.results, fetch_part(service, kind, id, "results", media_type));
   return json(*ended);
 }
 

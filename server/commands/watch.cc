@@ -3,6 +3,8 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kBetweenLooks = 500ms;
 constexpr auto kBetweenStudies = 1s;  // answers of studies may be long
-constexpr auto kPatience = 30s;       // with a service that has answered before
+constexpr auto kPatience = 2min;      // a service that starts reads its store first
 
 bool has_ended(const Json& resource) {
   const Json& state = resource.at("state");
@@ -63,6 +65,24 @@ std::vector<std::string> list_running(RemoteService& service, const Json& sweep)
   return lines;
 }
 
+/// Patience with a service that has answered before.
+class Patience {
+ public:
+  /// Tells of the first failure in a row. @throws error if the first was too long ago
+  void bear(const Unreachable& error) {
+    if (!lost_since_) {
+      lost_since_ = Clock::now();
+      std::cerr << "rpsup: " << terminal_text(error.what()) << "; trying again for " << kPatience / 1s << " s"
+                << std::endl;
+    }
+    if (Clock::now() - *lost_since_ > kPatience) throw error;
+  }
+  void renew() { lost_since_.reset(); }
+
+ private:
+  std::optional<Clock::time_point> lost_since_;
+};
+
 /// Looks at one resource again and again.
 class Watcher {
  public:
@@ -85,13 +105,18 @@ class Watcher {
     try {
       Json resource = service_.find(kind_, id_);
       show(resource);
-      lost_since_.reset();
+      patience_.renew();
       answered_ = true;
       return resource;
+    } catch (const Busy& error) {
+      view_.finish();
+      patience_.bear(error);
     } catch (const Unreachable& error) {
-      tell_loss(error);
-      return std::nullopt;
+      if (!answered_) throw;
+      view_.finish();
+      patience_.bear(error);
     }
+    return std::nullopt;
   }
 
   void show(const Json& resource) {
@@ -108,19 +133,12 @@ class Watcher {
     constexpr int kPauses = 20;  // as long as the list takes
     const auto begin = Clock::now();
     if (begin < list_again_ && sweep.at("counts").at("running") != 0) return;
-    running_ = list_running(service_, sweep);
-    list_again_ = Clock::now() + kPauses * (Clock::now() - begin);
-  }
-
-  void tell_loss(const Unreachable& error) {
-    if (!answered_) throw error;
-    if (!lost_since_) {
-      lost_since_ = Clock::now();
-      view_.finish();
-      std::cerr << "rpsup: " << terminal_text(error.what()) << "; trying again for " << kPatience.count()
-                << " s" << std::endl;
+    try {
+      running_ = list_running(service_, sweep);
+    } catch (const Busy&) {
+      // The last list stays: it is no more than a sight.
     }
-    if (Clock::now() - *lost_since_ > kPatience) throw error;
+    list_again_ = Clock::now() + kPauses * (Clock::now() - begin);
   }
 
   std::optional<Json> finish(std::optional<Json> resource) {
@@ -135,7 +153,7 @@ class Watcher {
   std::vector<std::string> running_;  ///< a line for each running job
   Clock::time_point list_again_;      ///< from then on
   bool answered_ = false;
-  std::optional<Clock::time_point> lost_since_;
+  Patience patience_;
 };
 
 }  // namespace
@@ -146,6 +164,19 @@ std::optional<Json> follow(RemoteService& service, Kind kind, const std::string&
   if (ended) std::cerr << id << ' ' << terminal_text(ended->at("state").get<std::string>()) << '\n';
   else std::cerr << "rpsup: no longer watching; " << id << " goes on (rpsup cancel ends it)\n";
   return ended;
+}
+
+std::string fetch_part(RemoteService& service, Kind kind, const std::string& id, std::string_view part,
+                       const std::string& media_type) {
+  Patience patience;
+  for (;;) {
+    try {
+      return service.get_part(kind, id, part, media_type);
+    } catch (const Unreachable& error) {
+      patience.bear(error);
+    }
+    std::this_thread::sleep_for(kBetweenStudies);
+  }
 }
 
 int watch(const WatchOptions& options) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/remote_service.h"
 
+#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
 #include "server/commands/command.h"
+#include "server/commands/remote_commands.h"
 #include "tests/server/commands/canned_server.h"
 
 namespace {
@@ -14,13 +16,18 @@ namespace {
 using server::parse_service_url;
 using server::Unreachable;
 using server::commands::BadInput;
+using server::commands::Busy;
 using server::commands::checked_kind;
+using server::commands::fetch_part;
+using server::commands::follow;
 using server::commands::Kind;
 using server::commands::RemoteService;
 using server_tests::canned;
 using server_tests::CannedServer;
 
 constexpr const char* kProblem = "application/problem+json";
+constexpr const char* kBusyProblem =
+    R"({"status": 503, "title": "Service Unavailable", "detail": "too many"})";
 
 TEST(ServiceUrl, IsTakenApart) {
   const auto plain = parse_service_url("http://127.0.0.1:8080");
@@ -142,6 +149,44 @@ TEST(RemoteService, TellsTheUsersFaultsFromTheServices) {
   EXPECT_NE(full.words.find("the disk is full"), std::string::npos) << full.words;
   EXPECT_EQ(tell(canned("429 Too Many Requests", kProblem, R"({"detail": "later"})")).code,
             server::commands::kMachineFailed);
+}
+
+TEST(RemoteService, TellsWhatMayWorkLater) {
+  const std::string full = R"({"status": 507, "title": "Insufficient Storage", "detail": "no room"})";
+  CannedServer server({canned("429 Too Many Requests", kProblem, kBusyProblem),
+                       canned("503 Service Unavailable", kProblem, kBusyProblem),
+                       canned("502 Bad Gateway", "text/html", "<html>"),
+                       canned("504 Gateway Timeout", "text/html", "<html>"),
+                       canned("507 Insufficient Storage", kProblem, full)});
+  RemoteService service({.url = server.url(), .token = ""});
+  const auto ask = [&] { static_cast<void>(service.find(Kind::kSweep, "swp_1")); };
+  for (int k = 0; k < 4; ++k) EXPECT_THROW(ask(), Busy) << k;
+  try {
+    ask();
+    FAIL() << "answered";
+  } catch (const Busy&) {
+    FAIL() << "a full disk is no matter of time";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no room"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Follow, IsPatientWithABusyService) {
+  const char* const json_type = "application/json";
+  const std::string busy = canned("503 Service Unavailable", kProblem, kBusyProblem);
+  CannedServer server({busy, canned("200 OK", json_type, R"({"id": "job_1", "state": "running"})"),
+                       canned("502 Bad Gateway", "text/html", "<html>"),
+                       canned("200 OK", json_type, R"({"id": "job_1", "state": "succeeded"})"), busy,
+                       canned("200 OK", "text/csv", "a\n1\n")});
+  RemoteService service({.url = server.url(), .token = ""});
+  testing::internal::CaptureStderr();
+  const auto ended = follow(service, Kind::kJob, "job_1");
+  const std::string table = fetch_part(service, Kind::kSweep, "swp_1", "results", "text/csv");
+  const std::string told = testing::internal::GetCapturedStderr();
+  ASSERT_TRUE(ended.has_value());
+  EXPECT_EQ(ended->at("state"), "succeeded");
+  EXPECT_EQ(table, "a\n1\n");
+  EXPECT_NE(told.find("too many; trying again for 120 s"), std::string::npos) << told;
 }
 
 TEST(RemoteService, NoticesThatSomethingElseAnswers) {
