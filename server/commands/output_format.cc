@@ -42,7 +42,13 @@ TableFormat default_format(DataShape shape) {
   return info_of(TableFormat::kCsv).holds(shape) ? TableFormat::kCsv : formats_of(shape).front().format;
 }
 
-/// Suffix of a file's name in lower case, without its dot.
+std::optional<TableFormat> find_format_of(std::string_view word, DataShape shape) {
+  const auto format = find_format(word);
+  return format && info_of(*format).holds(shape) ? format : std::nullopt;
+}
+
+}  // namespace
+
 std::string suffix_of(const std::string& path) {
   std::string suffix = std::filesystem::path(path).extension().string();
   if (!suffix.empty()) suffix.erase(0, 1);
@@ -50,13 +56,6 @@ std::string suffix_of(const std::string& path) {
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return suffix;
 }
-
-std::optional<TableFormat> find_format_of(std::string_view word, DataShape shape) {
-  const auto format = find_format(word);
-  return format && info_of(*format).holds(shape) ? format : std::nullopt;
-}
-
-}  // namespace
 
 void add_format_option(CLI::App& command, std::string& format, DataShape shape) {
   std::vector<std::string> words;

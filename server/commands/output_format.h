@@ -17,6 +17,9 @@ struct OutputFile {
   std::string path;    ///< "-": standard output
 };
 
+/// Suffix of a file's name in lower case, without its dot.
+[[nodiscard]] std::string suffix_of(const std::string& path);
+
 /// Adds --format, whose help lists the formats of the shape. All formats pass: the environment and the
 /// configuration file may give one to any command.
 void add_format_option(CLI::App& command, std::string& format, DataShape shape);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "server/commands/command.h"
+#include "server/commands/output_format.h"
 #include "server/messages/terminal_text.h"
 
 namespace server::commands {
@@ -13,8 +14,9 @@ namespace server::commands {
 namespace {
 
 std::string media_type_of(const std::string& file) {
-  if (file.ends_with(".json")) return kJsonType;
-  return file.ends_with(".npz") ? "application/x-npz" : "text/csv";
+  const std::string suffix = suffix_of(file);
+  if (suffix == "json") return kJsonType;
+  return suffix == "npz" ? "application/x-npz" : "text/csv";
 }
 
 /// "acc:slider_acceleration_m_s2" of "acc=slider_acceleration_m_s2". @throws BadInput

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/commands/study.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -8,6 +9,8 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "jobs/base/content_id.h"
 #include "jobs/base/errors.h"
@@ -15,6 +18,7 @@
 #include "jobs/measurements/read_measurement_json.h"
 #include "jobs/measurements/read_measurement_npz.h"
 #include "server/commands/command.h"
+#include "server/commands/output_format.h"
 #include "server/commands/progress.h"
 #include "server/commands/remote_commands.h"
 #include "server/commands/signals.h"
@@ -81,20 +85,29 @@ std::optional<json> run_study(jobs::Service& service, StudyKind kind, const orde
 
 constexpr std::array<const char*, 3> kFileKeys{"columns", "sensors", "parameters"};
 
+/// The columns of a measured file that an entry chooses; none: all. @throws BadInput
+std::vector<std::string> columns_of(const ordered_json& entry) {
+  const ordered_json columns = entry.value("columns", ordered_json::array());
+  if (!columns.is_array() ||
+      !std::ranges::all_of(columns, [](const ordered_json& column) { return column.is_string(); }))
+    throw BadInput("columns of a file in measurements must be a list of texts, \"COLUMN:CHANNEL\"");
+  return columns.get<std::vector<std::string>>();
+}
+
 jobs::Measurement read_measurement_file(const std::string& path, const ordered_json& entry) {
-  jobs::ColumnQuery query{.name = std::filesystem::path(path).filename().string()};
-  if (entry.contains("columns")) query.channels = entry.at("columns").get<std::vector<std::string>>();
+  jobs::ColumnQuery query{.name = std::filesystem::path(path).filename().string(),
+                          .channels = columns_of(entry)};
   query.sensors = entry.value("sensors", ordered_json::object());
   query.parameters = entry.value("parameters", ordered_json::object());
-  if (path.ends_with(".json")) {
+  if (suffix_of(path) == "json") {
     for (const char* const key : kFileKeys)
       if (entry.contains(key))
         throw BadInput(std::string(key) + " of " + path + " is for CSV and NPZ; JSON holds it itself");
     return jobs::read_measurement_json(read_json(path));
   }
   const std::string text = read_text(path);
-  return path.ends_with(".npz") ? jobs::read_measurement_npz(text, query)
-                                : jobs::read_measurement_csv(text, query);
+  return suffix_of(path) == "npz" ? jobs::read_measurement_npz(text, query)
+                                  : jobs::read_measurement_csv(text, query);
 }
 
 /// File of measured signals that an entry of a request names.
@@ -132,11 +145,9 @@ std::string store_here(jobs::Service& service, const MeasuredFile& file, const o
 MeasureOptions make_measure_options(const RemoteOptions& remote, const std::string& path,
                                     const ordered_json& entry) {
   MeasureOptions options{.remote = remote, .file = path, .name = {}, .time = {}, .channels = {}};
-  if (entry.contains("columns")) {
-    for (auto column : entry.at("columns").get<std::vector<std::string>>()) {
-      if (const auto colon = column.rfind(':'); colon != std::string::npos) column[colon] = '=';
-      options.channels.push_back(column);
-    }
+  for (std::string& column : columns_of(entry)) {
+    if (const auto colon = column.rfind(':'); colon != std::string::npos) column[colon] = '=';
+    options.channels.push_back(std::move(column));
   }
   if (entry.contains("sensors")) options.sensors = entry.at("sensors").dump();
   if (entry.contains("parameters")) options.parameters = entry.at("parameters").dump();
