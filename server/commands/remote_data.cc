@@ -4,18 +4,14 @@
 
 #include <array>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "server/commands/command.h"
 #include "server/commands/output_format.h"
 #include "server/commands/remote_commands.h"
+#include "server/commands/written_file.h"
 
 namespace server::commands {
 
@@ -55,40 +51,6 @@ int write_part(const RemoteOptions& remote, std::pair<Kind, const std::string&> 
   return kDone;
 }
 
-/// File that gets its name when all of it is there. "-": standard output.
-class GrowingFile {
- public:
-  explicit GrowingFile(std::string path) : path_(std::move(path)) {
-    if (path_ != "-") file_.open(part(), std::ios::binary | std::ios::trunc);
-  }
-  ~GrowingFile() {
-    std::error_code ignored;
-    if (path_ != "-" && !is_kept_) std::filesystem::remove(part(), ignored);
-  }
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
-
-  bool append(std::string_view piece) {
-    std::ostream& stream = path_ == "-" ? std::cout : file_;
-    return static_cast<bool>(stream.write(piece.data(), static_cast<std::streamsize>(piece.size())));
-  }
-
-  void keep() {
-    if (path_ == "-") return check_standard_output();
-    file_.close();
-    if (!file_) throw std::runtime_error("cannot write " + part());
-    std::filesystem::rename(part(), path_);
-    is_kept_ = true;
-  }
-
- private:
-  [[nodiscard]] std::string part() const { return path_ + ".part"; }
-
-  std::string path_;
-  std::ofstream file_;
-  bool is_kept_ = false;
-};
-
 /// Format of the trajectories of a sweep. @throws BadInput
 TableFormat check_sweep_file(const TrajectoryOptions& options, const OutputFile& output) {
   const TableFormat format = check_output(output, options.format, DataShape::kTrajectories);
@@ -105,14 +67,13 @@ int save_trajectories(const TrajectoryOptions& options, const OutputFile& output
   RemoteService service(options.remote);
   constexpr std::chrono::minutes kFilePatience{10};  // the service makes the file before it sends any of it
   service.set_patience(kFilePatience);
-  GrowingFile file(output.path);
+  WrittenFile file(output.path);
   bool is_written = true;
   try {
     service.save_part(Kind::kSweep, options.id, "trajectories", std::string(info_of(format).media_type),
                       query, [&](std::string_view piece) { return is_written = file.append(piece); });
   } catch (const Unreachable&) {
-    if (!is_written) throw std::runtime_error("cannot write " + output.path + ": is the disk full?");
-    throw;
+    if (is_written) throw;  // else the file ended the transfer
   }
   file.keep();
   return kDone;

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "jobs/base/errors.h"
+#include "server/commands/written_file.h"
 #include "tests/server/service_fixture.h"
 
 namespace {
@@ -123,6 +124,35 @@ TEST(WriteText, WritesEveryByteOrThrows) {
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), std::string("a\r\n\0b", 5));
   // A device without room.
   EXPECT_THROW(write_text("/dev/full", "a"), CannotWrite);
+}
+
+TEST(WrittenFile, LeavesTheOldFileUnlessItIsKept) {
+  const server_tests::TemporaryFolder folder;
+  const std::string path = folder / "a.csv", link = folder / "link.csv";
+  write_text(path, "old");
+  std::filesystem::create_symlink("a.csv", link);
+  {
+    WrittenFile file(link);
+    EXPECT_TRUE(file.append("new"));
+  }
+  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / ""), {}), 2) << "no part is left";
+  WrittenFile file(link);
+  EXPECT_TRUE(file.append("new"));
+  EXPECT_TRUE(file.append("er"));
+  file.keep();
+  EXPECT_EQ(read_text(path), "newer");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
+TEST(WrittenFile, KeepsADevice) {
+  WrittenFile file("/dev/null");
+  EXPECT_TRUE(file.append("a"));
+  file.keep();
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  WrittenFile full("/dev/full");
+  EXPECT_FALSE(full.append("a"));
+  EXPECT_THROW(full.keep(), CannotWrite);
 }
 
 }  // namespace
