@@ -106,6 +106,12 @@ class Waits(unittest.TestCase):
                 self.assertEqual(server.requests[0][1].get("Prefer"), wanted)
 
 
+    def test_for_a_service_that_starts_anew(self):
+        with FakeServer(http(200, {"state": "running"}), BUSY, http(502, {}), b"", http(200, {"state": "succeeded"})) as server:
+            server.client(patience_s=1.0).sweep("swp_1").wait(progress=False)
+        self.assertEqual(len(server.requests), 5)
+
+
 class Refuses(unittest.TestCase):
     def test_a_service_that_is_not_there(self):
         start = time.monotonic()
@@ -118,7 +124,7 @@ class Refuses(unittest.TestCase):
             "no HTTP": b"SSH-2.0-OpenSSH\r\n\r\n",
             "no JSON": http(200, b"<html>"),
             "no id": http(201, ["swp_1"]),
-            "an error of a proxy": http(502, b"<html>bad gateway"),
+            "an error of a proxy": http(500, b"<html>bad gateway"),
             "an error that is a list": http(500, []),
         }.items():
             with self.subTest(name), FakeServer(answer) as server, self.assertRaises(rpsup.BadAnswer):

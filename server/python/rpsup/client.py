@@ -50,6 +50,11 @@ class Client:
         return self._transport.url
 
     @property
+    def patience_s(self) -> float:
+        """Time for which a request is sent again, [s]."""
+        return self._transport.patience_s
+
+    @property
     def timeout_s(self) -> float:
         """Longest time without a sign of life in an answer, [s]."""
         return self._transport.timeout_s
@@ -178,9 +183,10 @@ class Client:
 
     # Requests of any kind.
 
-    def get(self, path: str, query: Query = None, headers: Optional[Mapping[str, str]] = None) -> Any:
-        """Value of the JSON that a path gives."""
-        return self._transport.send("GET", path, query, headers=headers).json()
+    def get(self, path: str, query: Query = None, headers: Optional[Mapping[str, str]] = None,
+            patience_s: Optional[float] = None) -> Any:
+        """Value of the JSON that a path gives. `patience_s` is that of the client if left out."""
+        return self._transport.send("GET", path, query, headers=headers, patience_s=patience_s).json()
 
     def post(self, path: str, body: Body = None, again: Again = Again.NEVER) -> Any:
         """Value of the JSON that a path answers to a request."""

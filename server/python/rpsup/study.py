@@ -22,6 +22,7 @@ Self = TypeVar("Self", bound="Work")
 
 POLL_S = 1.0  # of a bar, and of a service on which too many clients wait
 LONG_POLL_S = 30.0  # without a bar
+WAIT_PATIENCE = 6  # times that of other requests: a service that starts anew reads its store first
 ENDS = ("succeeded", "failed", "cancelled")
 
 
@@ -54,22 +55,27 @@ class Work(Resource):
     def wait(self: Self, timeout_s: Number = None, progress: Optional[bool] = None) -> Self:
         """Waits until all has ended, whether or not it has succeeded, and returns the object itself.
 
+        A service that is away or busy is asked again for six times the client's `patience_s`.
+
         Args:
             timeout_s: longest time to wait, [s]; without end if left out.
             progress: False draws no bar, True always one; if left out, terminals and notebooks have one.
         Raises:
             TimeoutError: it has not ended; it goes on, and can be waited for again.
+            Unreachable: the service did not answer for that long.
         """
         end = None if timeout_s is None else time.monotonic() + timeout_s
         with Bar(progress) as bar:
             while True:
                 # The service sends nothing while it waits: half of the timeout leaves time for its answer.
                 poll_s = min(POLL_S if bar.is_drawn else LONG_POLL_S, 0.5 * self.client.timeout_s)
+                patience_s = WAIT_PATIENCE * self.client.patience_s
                 if end is not None:
-                    poll_s = min(poll_s, max(0.0, end - time.monotonic()))
+                    left_s = max(0.0, end - time.monotonic())
+                    poll_s, patience_s = min(poll_s, left_s), min(patience_s, left_s)
                 asked = time.monotonic()
                 headers = {"Prefer": f"wait={int(poll_s)}"} if poll_s >= 1 else {}
-                status = self.client.get(self.path, headers=headers)
+                status = self.client.get(self.path, headers=headers, patience_s=patience_s)
                 bar.draw(status)
                 if status["state"] in ENDS:
                     return self

@@ -12,7 +12,7 @@ import random
 import ssl
 import time
 import uuid
-from typing import Any, Iterator, Mapping, NamedTuple, Optional, Union
+from typing import Any, Iterator, Mapping, NamedTuple, Optional, Tuple, Union
 from urllib.parse import quote, urlencode, urlsplit
 
 from .errors import BadAnswer, Error, Unreachable, error_of
@@ -32,6 +32,11 @@ class Again(enum.Enum):
     SAFELY = "reading, or a request that changes nothing when it is done twice"
     BY_KEY = "with an idempotency key, by which the service knows the request again"
     NEVER = "only if the service has not taken it: no connection, or an answer of 429 or 503"
+
+    @property
+    def refusals(self) -> Tuple[int, ...]:
+        """Statuses after which it may be sent again. With 502 or 504 the service may have taken it."""
+        return (429, 503) if self is Again.NEVER else (429, 502, 503, 504)
 
 
 class Answer(NamedTuple):
@@ -62,7 +67,8 @@ class Transport:
     """Connection data of a service.
 
     A request that finds no connection, loses it, or is answered with 429 or 503 is sent again for
-    `patience_s`, after as many seconds as `Retry-After` says or else longer and longer waits.
+    `patience_s`, after as many seconds as `Retry-After` says or else longer and longer waits. So is one that
+    a proxy answers with 502 or 504, unless it must not be sent twice.
     """
 
     def __init__(self, url: str, token: Optional[str], timeout_s: float, patience_s: float) -> None:
@@ -73,12 +79,12 @@ class Transport:
         self._parts = parts
         self._token = token
         self.timeout_s = timeout_s
-        self._patience_s = patience_s
+        self.patience_s = patience_s
 
     def send(self, method: str, path: str, query: Query = None, body: Body = None, *,
              headers: Optional[Mapping[str, str]] = None, content_type: str = "application/json",
              again: Again = Again.SAFELY, file: Optional[str] = None,
-             timeout_s: Optional[float] = None) -> Answer:
+             timeout_s: Optional[float] = None, patience_s: Optional[float] = None) -> Answer:
         """Sends a request and returns the answer. `file` takes the body of the answer, block by block.
 
         Raises:
@@ -107,8 +113,9 @@ class Transport:
                     return answer  # the first request has deleted it, and its answer was lost
                 refusal = error_of(answer.status, http.client.responses.get(answer.status, ""), answer.body)
                 being_stored = again is Again.BY_KEY and is_repeated and answer.status == 409
-                if answer.status not in (429, 503) and not being_stored:
+                if not (answer.status in again.refusals or being_stored):
                     raise refusal
+                is_repeated = is_repeated or answer.status in (502, 504)
                 pause_s = _seconds_of(answer.headers.get("retry-after"), wait_s)
             except _Lost as lost:
                 refusal = Unreachable(f"no answer from {self.url}: {lost}")
@@ -118,7 +125,7 @@ class Transport:
                 pause_s = wait_s * random.uniform(0.5, 1.0)  # clients return one by one
             now = time.monotonic()
             first_failure = first_failure or now
-            if now + pause_s - first_failure > self._patience_s:
+            if now + pause_s - first_failure > (self.patience_s if patience_s is None else patience_s):
                 raise refusal
             time.sleep(pause_s)
             wait_s = min(2 * wait_s, LONGEST_WAIT_S)
