@@ -18,6 +18,15 @@ struct SurfacePoint {
   Vec3<P> t, s;  ///< unit tangents: the directions of the two bristles
 };
 
+/// 1 + pole n_z, which is 0 at the other pole. Its rounding there, as a ball may come to that pole before
+/// PointContacts::follow() changes the pole: what is divided by it is 0, too.
+template <typename P>
+[[nodiscard]] RPSUP_INLINE P calc_distance_from_other_pole(double pole, const Vec3<P>& n) {
+  constexpr double kRounding = 1e-15;
+  const P distance = 1.0 + pole * n.z;
+  return value_of(distance) > kRounding ? distance : P(kRounding);
+}
+
 /// Tangents at a direction n: those of the pole, turned the shortest way. Singular at the other pole.
 ///
 ///     t = (1 - a n_x^2, -a n_x n_y, -pole n_x),  s = (-a n_x n_y, 1 - a n_y^2, -pole n_y),
@@ -25,7 +34,7 @@ struct SurfacePoint {
 template <typename P>
 RPSUP_INLINE void set_tangents(double pole, SurfacePoint<P>& point) {
   const Vec3<P>& n = point.n;
-  const P a = 1.0 / (1.0 + pole * n.z);
+  const P a = 1.0 / calc_distance_from_other_pole(pole, n);
   const P mixed = -(a * n.x * n.y);
   point.t = {1.0 - a * n.x * n.x, mixed, -pole * n.x};
   point.s = {mixed, 1.0 - a * n.y * n.y, -pole * n.y};
@@ -78,7 +87,7 @@ template <typename P, typename V>
 [[nodiscard]] RPSUP_INLINE V calc_tangent_spin(double pole, const RelativeMotion<P, V>& journal,
                                                const Vec3<P>& n) {
   const P& along = n.x * journal.p.x + n.y * journal.p.y + n.z * journal.p.z;  // |p|
-  return (n.y * journal.v.x - n.x * journal.v.y) / (along * (1.0 + pole * n.z));
+  return (n.y * journal.v.x - n.x * journal.v.y) / (along * calc_distance_from_other_pole(pole, n));
 }
 
 /// Friction of a contact point. @returns the force on the journal

@@ -59,6 +59,25 @@ TEST(BallInSocket, KeepsItsBristleParallelToItself) {
   }
 }
 
+// A ball that falls along the axis comes there before its pole follows.
+TEST(BallInSocket, IsEvaluatedAtTheOtherPoleToo) {
+  const ClearanceParameters joint = make_socket();
+  for (const double across : {0.0, 1e-12, 1e-9, 1e-8}) {
+    PointContacts contacts(joint);
+    const RelativeMotion<double, double> ball = roll(joint, {across, 0.0, -1.0});
+    std::array<double, 2> z{}, rates{};
+    JointLoad<double> load;
+    add_point_contacts(contacts, ball, z.data(), rates.data(), load);
+    EXPECT_GT(load.radial_normal_sum, 0.0);
+    EXPECT_TRUE(std::isfinite(rates[0]) && std::isfinite(rates[1])) << across;
+    JournalMotion journal;
+    journal.p_bj = {ball.p.x, ball.p.y, ball.p.z};
+    EXPECT_TRUE(contacts.follow(journal, z.data()));
+    EXPECT_EQ(z, (std::array<double, 2>{})) << across;
+    EXPECT_EQ(contacts.pole(), -1.0);
+  }
+}
+
 TEST(BlockInSlot, HasAClearanceOfItsOwnAlongItsHeight) {
   ClearanceParameters joint;
   joint.geometry = ContactGeometry::kBlockInSlot;
