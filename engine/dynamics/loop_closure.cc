@@ -39,7 +39,7 @@ JournalMotion calc_journal_pose(const CutJoint& joint, const std::vector<FrameMo
 
 /// @returns whether a journal is in its bore and between its shoulders, or rests there, pressed in a little
 bool is_in_bore(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
-  constexpr double kPressed = 0.1;  // of the radial clearance
+  constexpr double kPressed = 0.1;  // of the clearance, of a block the smaller one
   const JournalMotion journal = calc_journal_pose(joint, frames);
   const ClearanceJoint clearance(*joint.clearance);
   const AxialFaces& faces = clearance.faces();
@@ -51,7 +51,9 @@ bool is_in_bore(const CutJoint& joint, const std::vector<FrameMotion>& frames) {
   for (const int face : {0, 1})
     deepest = std::max(deepest, faces.calc_farthest_point(AxialFaces::side(face), journal.p_bj.z(), axial.x(),
                                                           axial.y(), axial.z()) - faces.limit());
-  return deepest <= kPressed * joint.clearance->c_r;
+  const ClearanceParameters& parameters = *joint.clearance;
+  const bool is_block = parameters.geometry == ContactGeometry::kBlockInSlot;
+  return deepest <= kPressed * (is_block ? std::min(parameters.c_r, parameters.c_y) : parameters.c_r);
 }
 
 }  // namespace

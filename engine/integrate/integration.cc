@@ -110,8 +110,7 @@ void Integration::set_start(const Evaluation& assembled) {
 
 bool Integration::start(const Evaluation& assembled) {
   set_start(assembled);
-  ++outcome_.evaluations;
-  const EvaluationStatus status = system_.calc_derivative(0.0, start_.y, start_.f, start_.at);
+  const EvaluationStatus status = evaluate_start();
   if (status != EvaluationStatus::kOk) {
     fail(status);
     return false;
@@ -119,10 +118,18 @@ bool Integration::start(const Evaluation& assembled) {
   // Dopri5's steps are as short as its stability asks: it would take no longer ones.
   if (is_implicit(options_.integrator))
     tolerance_.set_radii(mechanism_, system_.free_coordinates(), start_.at.frames);
-  system_.calc_energies(start_.at);
   system_.add_penetrations(start_.at, rings_start_);
   follow_speed();
   return true;
+}
+
+/// Evaluates the start. A journal may touch there: its bristles come to where the contact is, as many as it
+/// needs.
+EvaluationStatus Integration::evaluate_start() {
+  EvaluationStatus status = evaluate(start_);
+  if (system_.prepare_step(start_.at, 0.0, start_.y)) status = evaluate(start_);
+  while (status == EvaluationStatus::kBristleMissing) status = widen_bristles();
+  return status;
 }
 
 /// Begins new charts of spherical joints whose angles come near to a singularity. @returns whether any is
@@ -173,30 +180,30 @@ void Integration::jump() {
   piece_.advance();
   system_.follow_drives(piece_);
   stepper_->invalidate();
-  evaluate_again(start_);
+  (void)evaluate(start_);  // as after each change below: what could be evaluated before can be now
 }
 
 /// Moves bristles along with their contacts to other elements, whose rates differ.
 void Integration::prepare(double dt) {
   if (!system_.prepare_step(start_.at, dt, start_.y)) return;
   stepper_->invalidate();
-  evaluate_again(start_);
+  (void)evaluate(start_);
 }
 
-void Integration::evaluate_again(StepPoint& end) {
+EvaluationStatus Integration::evaluate(StepPoint& point) {
   ++outcome_.evaluations;
-  // The state could be evaluated before, so it can be now.
-  (void)system_.calc_derivative(end.t, end.y, end.f, end.at);
-  system_.calc_energies(end.at);
+  const EvaluationStatus status = system_.calc_derivative(point.t, point.y, point.f, point.at);
+  system_.calc_energies(point.at);
+  return status;
 }
 
-void Integration::widen_bristles() {
+EvaluationStatus Integration::widen_bristles() {
   system_.widen_bristles(start_.y);
   // Replaced, not resized: see MotionSystem::allocate().
   for (Eigen::VectorXd* each : {&start_.f, &end_.y, &end_.f, &sample_.y, &sample_.f})
     *each = Eigen::VectorXd(Eigen::VectorXd::Zero(start_.y.size()));
   stepper_ = make_stepper(mechanism_, options_.integrator, tolerance_);
-  evaluate_again(start_);
+  return evaluate(start_);
 }
 
 void Integration::fail(EvaluationStatus status) {
@@ -232,14 +239,17 @@ void Integration::cross_jumps(double t_end) {
   if (piece_.end() >= t_end - sliver_) return;
   while (piece_.end() < t_end - sliver_) piece_.advance();
   system_.follow_drives(DrivePiece());
-  crosses_ = true;
+  crossing_step_ = fixed_steps_;
 }
 
 /// Step k ends at (k + 1) step without accumulated rounding, the last step at the end of the run.
 bool Integration::try_fixed_step() {
   double t_end = static_cast<double>(fixed_steps_ + 1) * options_.step;
   if (options_.duration - t_end < sliver_) t_end = options_.duration;
-  if (std::exchange(crosses_, false)) system_.follow_drives(piece_);
+  if (crossing_step_ < fixed_steps_) {  // not where the same step is tried again
+    crossing_step_ = kNoStep;
+    system_.follow_drives(piece_);
+  }
   cross_jumps(t_end);
   prepare(t_end - start_.t);
   const Trial trial = stepper_->try_step(system_, start_, t_end - start_.t, end_);
@@ -254,7 +264,7 @@ bool Integration::try_fixed_step() {
 /// @returns whether a fixed step is accepted. If not, widens the bristles for another try, or fails.
 bool Integration::accept_or_widen(const Trial& trial) {
   if (trial.status == EvaluationStatus::kBristleMissing) {
-    widen_bristles();
+    (void)widen_bristles();
     return false;
   }
   if (trial.status != EvaluationStatus::kOk || !end_.y.allFinite()) {
@@ -311,16 +321,16 @@ Trial Integration::try_step(double dt) {
   outcome_.evaluations += trial.evaluations;
   if (trial.status != EvaluationStatus::kOk || !(trial.error <= 1.0)) return trial;
   system_.calc_energies(end_.at);
-  if (is_implicit(options_.integrator))
-    trial.error =
-        std::max(trial.error, energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt));
+  if (!is_implicit(options_.integrator)) return trial;
+  const double imbalance = energy_control_.measure(start_.at.energy, end_.at.energy, start_.t, dt);
+  if (!(imbalance <= trial.error)) trial.error = imbalance;  // no number is no small error
   return trial;
 }
 
 /// @returns whether a trial is accepted. If not, sets the next step, or fails.
 bool Integration::accept_or_shrink(const Trial& trial, double dt) {
   if (trial.status == EvaluationStatus::kBristleMissing && dt <= kWidenBelow) {
-    widen_bristles();
+    (void)widen_bristles();
     return false;
   }
   const bool evaluated = trial.status == EvaluationStatus::kOk && std::isfinite(trial.error);
@@ -362,7 +372,7 @@ void Integration::accept() {
   follow_speed();
   if (begin_charts()) {
     stepper_->invalidate();
-    evaluate_again(start_);
+    (void)evaluate(start_);
   }
 }
 
@@ -385,13 +395,13 @@ void Integration::accept_contacts() {
     stepper_->invalidate();
   else if (change.any)
     stepper_->reset_convergence_rate();
-  if (change.any) evaluate_again(end_);
+  if (change.any) (void)evaluate(end_);
 }
 
 /// Takes the samples up to the end of the step, with the contacts of the step.
 void Integration::take_samples() {
   while (!samples_.all_taken() && samples_.next() <= end_.t) {
-    const EvaluationStatus status = evaluate_inside(samples_.next());
+    const EvaluationStatus status = evaluate_sample(samples_.next());
     if (status != EvaluationStatus::kOk) return fail(status);
     system_.calc_energies(sample_.at);
     observer_.on_sample(sample_.at);
@@ -399,18 +409,23 @@ void Integration::take_samples() {
   }
 }
 
-/// Evaluates the last step at time t into sample_. A state between two that could be evaluated nearly always
-/// can be, too.
+/// Evaluates the last step at time t into sample_, or its end where the state inside cannot be evaluated: an
+/// element touches there that touches at neither end, or friction fits the reactions at the ends alone.
+EvaluationStatus Integration::evaluate_sample(double t) {
+  const EvaluationStatus inside = evaluate_inside(t);
+  if (inside != EvaluationStatus::kBristleMissing && inside != EvaluationStatus::kWedged) return inside;
+  sample_.y = end_.y;
+  const EvaluationStatus at_end = system_.calc_derivative(end_.t, sample_.y, sample_.f, sample_.at);
+  sample_.at.t = t;
+  return at_end;
+}
+
+/// Evaluates the last step at time t into sample_.
 EvaluationStatus Integration::evaluate_inside(double t) {
   if (t < end_.t)
     interpolate_state(start_, end_, system_.layout(), (t - start_.t) / (end_.t - start_.t), sample_.y);
   else
     sample_.y = end_.y;
-  const EvaluationStatus status = system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
-  // An element touches there that touches at neither end, or friction fits the reactions at the ends alone:
-  // the end's state is close.
-  if (status != EvaluationStatus::kBristleMissing && status != EvaluationStatus::kWedged) return status;
-  sample_.y = end_.y;
   return system_.calc_derivative(t, sample_.y, sample_.f, sample_.at);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ class Integration {
  private:
   [[nodiscard]] bool start(const Evaluation& assembled);
   void set_start(const Evaluation& assembled);
+  [[nodiscard]] EvaluationStatus evaluate_start();
   [[nodiscard]] bool can_continue();
   [[nodiscard]] bool try_fixed_step();
   [[nodiscard]] bool accept_or_widen(const Trial& trial);
@@ -46,6 +48,7 @@ class Integration {
   void observe_step();
   void accept_contacts();
   void take_samples();
+  [[nodiscard]] EvaluationStatus evaluate_sample(double t);
   [[nodiscard]] EvaluationStatus evaluate_inside(double t);
   [[nodiscard]] bool begin_charts();
   [[nodiscard]] double calc_drive_speed() const;
@@ -53,8 +56,8 @@ class Integration {
   void jump();
   void cross_jumps(double t_end);
   void prepare(double dt);
-  void evaluate_again(StepPoint& end);
-  void widen_bristles();
+  [[nodiscard]] EvaluationStatus evaluate(StepPoint& point);
+  [[nodiscard]] EvaluationStatus widen_bristles();
   void fail(EvaluationStatus status);
   [[nodiscard]] std::string describe_lock_or(std::string otherwise) const;
   void fail(RunStatus status, std::string detail);
@@ -83,7 +86,8 @@ class Integration {
   double speed_ = 0.0;                            ///< largest so far, of drives in the whole run, [m/s]
   int hopeless_steps_ = 0;                        ///< in a row
   long fixed_steps_ = 0;
-  bool crosses_ = false;                          ///< the last fixed step went across a jump
+  static constexpr long kNoStep = std::numeric_limits<long>::max();
+  long crossing_step_ = kNoStep;                  ///< the last fixed step across a jump, until it is done
   RunOutcome outcome_;
   bool failed_ = false;
 };
