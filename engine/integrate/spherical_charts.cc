@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/kinematics/frame_motion.h"
+#include "engine/model/spherical_rotations.h"
 
 namespace engine {
 
@@ -24,24 +25,6 @@ bool is_held(const Mechanism& mechanism, FrameIndex i) {
          });
 }
 
-bool is_rotation(const Mechanism& mechanism, FrameIndex i, Axis axis) {
-  const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
-  return c.motion == Motion::kRotation && c.axis == axis;
-}
-
-bool begins_spherical_joint(const Mechanism& mechanism, FrameIndex psi) {
-  if (!is_rotation(mechanism, psi, Axis::kZ) || !is_rotation(mechanism, psi + 1, Axis::kY) ||
-      !is_rotation(mechanism, psi + 2, Axis::kX))
-    return false;
-  for (const FrameIndex inner : {psi + 1, psi + 2}) {
-    const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(inner)];
-    const Coordinate& carrier = mechanism.coordinates[static_cast<std::size_t>(inner - 1)];
-    if (c.parent != inner - 1 || !is_inside_joint(c) || !is_unrotated(c.placement) || carrier.mass != 0.0)
-      return false;
-  }
-  return true;
-}
-
 /// @returns whether anything acts on the angles of a spherical joint
 bool is_held_joint(const Mechanism& mechanism, FrameIndex psi) {
   return is_held(mechanism, psi) || is_held(mechanism, psi + 1) || is_held(mechanism, psi + 2);
@@ -51,8 +34,8 @@ bool is_held_joint(const Mechanism& mechanism, FrameIndex psi) {
 std::vector<FrameIndex> list_spherical_joints(const Mechanism& mechanism) {
   std::vector<FrameIndex> found;
   const auto count = static_cast<FrameIndex>(mechanism.coordinates.size());
-  for (FrameIndex i = 0; i + 2 < count; ++i)
-    if (begins_spherical_joint(mechanism, i)) found.push_back(i);
+  for (FrameIndex i = 0; i < count; ++i)
+    if (are_spherical_rotations(mechanism, i)) found.push_back(i);
   return found;
 }
 
@@ -162,14 +145,32 @@ void SphericalCharts::restore_given(const Angles& near, Evaluation& at) const {
 const Evaluation& GivenChartObserver::restore(const Evaluation& at, Evaluation& restored) const {
   if (!charts_.any_moved()) return at;
   restored = at;
-  charts_.restore_given(last_, restored);
+  charts_.restore_given(predict_angles(at.t), restored);
   return restored;
+}
+
+void GivenChartObserver::keep(const Evaluation& at) {
+  last_t_ = at.t;
+  last_ = charts_.angles_of(at.q);
+  last_rates_ = charts_.angles_of(at.qd);
+}
+
+/// Angles that go on from the last ones at their rates: a fast spin turns by more than a half in a step. Near
+/// gimbal lock, where theta comes to it within the time, rates do not last: there the last angles.
+SphericalCharts::Angles GivenChartObserver::predict_angles(double t) const {
+  constexpr double kLasting = 0.5;
+  SphericalCharts::Angles angles = last_;
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const Eigen::Vector3d turned = (t - last_t_) * last_rates_[k];
+    if (std::abs(turned[1]) < kLasting * std::abs(std::cos(angles[k][1]))) angles[k] += turned;
+  }
+  return angles;
 }
 
 void GivenChartObserver::on_step(const Evaluation& start, const Evaluation& end) {
   const Evaluation& from = restore(start, start_);
   const Evaluation& to = restore(end, end_);
-  last_ = charts_.angles_of(to.q);
+  keep(to);
   observer_.on_step(from, to);
 }
 
@@ -182,8 +183,8 @@ std::optional<FrameIndex> find_gimbal_lock(const Mechanism& mechanism, const Eig
 
 std::string describe_gimbal_lock(const Mechanism& mechanism, FrameIndex middle) {
   return "at a right angle of " + mechanism.coordinates[static_cast<std::size_t>(middle)].name +
-         " the two other axes of its joint coincide, where springs, dampers, drives and friction on its "
-         "angles have no limit: leave them out, or turn the frame of the joint";
+         " the two other axes of its joint coincide, where springs, dampers, drives, actuators, loads "
+         "and friction on its angles have no limit: leave them out, or turn the frame of the joint";
 }
 
 }  // namespace engine

@@ -66,7 +66,7 @@ class GivenChartObserver : public Observer {
       : observer_(observer), charts_(charts) {}
 
   /// @param at  at the start of the run
-  void start(const Evaluation& at) { last_ = charts_.angles_of(at.q); }
+  void start(const Evaluation& at) { keep(at); }
 
   void on_step(const Evaluation& start, const Evaluation& end) override;
   [[nodiscard]] bool wants_middle() override { return observer_.wants_middle(); }
@@ -77,10 +77,13 @@ class GivenChartObserver : public Observer {
 
  private:
   const Evaluation& restore(const Evaluation& at, Evaluation& restored) const;
+  void keep(const Evaluation& at);
+  [[nodiscard]] SphericalCharts::Angles predict_angles(double t) const;
 
   Observer& observer_;
   const SphericalCharts& charts_;
-  SphericalCharts::Angles last_;  ///< at the end of the last step
+  double last_t_ = 0.0;                         ///< end of the last step, [s]
+  SphericalCharts::Angles last_, last_rates_;  ///< then
   Evaluation start_, end_, inside_;
 };
 

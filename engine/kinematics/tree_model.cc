@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "engine/model/spherical_rotations.h"
+
 namespace engine {
 
 namespace {
@@ -110,34 +112,12 @@ class JointFinder {
     return drive == mechanism_.drives.end() ? -1 : static_cast<int>(drive - mechanism_.drives.begin());
   }
 
-  [[nodiscard]] bool is_free_rotation(int i, Axis axis) const {
-    return coordinate(i).motion == Motion::kRotation && coordinate(i).axis == axis &&
-           eliminating_drive(i) < 0 && coordinate(i).armature == 0.0;
-  }
-
-  /// Three free rotations about z, y, x of one point, with nothing else on the two frames between.
+  /// Rotations of one point that none but the joint itself moves.
   [[nodiscard]] bool is_spherical(int i) const {
-    if (i + 2 >= static_cast<int>(mechanism_.coordinates.size())) return false;
-    if (!is_free_rotation(i, Axis::kZ) || !is_free_rotation(i + 1, Axis::kY) ||
-        !is_free_rotation(i + 2, Axis::kX))
-      return false;
-    for (const int k : {i + 1, i + 2})
-      if (coordinate(k).parent != k - 1 || !is_inside_joint(coordinate(k)) ||
-          !is_unrotated(coordinate(k).placement) || !is_empty(k - 1))
-        return false;
+    if (!are_spherical_rotations(mechanism_, i)) return false;
+    for (const int k : {i, i + 1, i + 2})
+      if (eliminating_drive(k) >= 0 || coordinate(k).armature != 0.0) return false;
     return true;
-  }
-
-  [[nodiscard]] bool is_empty(int i) const {
-    if (coordinate(i).mass != 0.0) return false;
-    for (const CutJoint& joint : mechanism_.cut_joints)
-      if (joint.bearing_frame == i || joint.journal_frame == i) return false;
-    for (const PointSpring& spring : mechanism_.springs)
-      if (spring.from_frame == i || spring.to_frame == i) return false;
-    for (const BodyLoad& load : mechanism_.body_loads)
-      if (load.frame == i) return false;
-    return std::count_if(mechanism_.coordinates.begin(), mechanism_.coordinates.end(),
-                         [i](const Coordinate& c) { return c.parent == i; }) == 1;
   }
 
   const Mechanism& mechanism_;
