@@ -12,35 +12,24 @@ namespace engine {
 
 namespace {
 
-/// @returns whether a coordinate is of the same joint as its parent: the frame between has no mass and is
-/// where the coordinate begins
-bool continues_joint(const Mechanism& mechanism, FrameIndex i) {
-  const Coordinate& c = mechanism.coordinates[static_cast<std::size_t>(i)];
-  return c.parent != kGround && c.placement.p.isZero(0.0) && is_unrotated(c.placement) &&
-         mechanism.coordinates[static_cast<std::size_t>(c.parent)].mass == 0.0;
-}
-
-/// The other coordinates of a coordinate's joint.
-std::vector<FrameIndex> find_other_freedoms(const Mechanism& mechanism, FrameIndex of) {
-  std::vector<FrameIndex> others;
-  for (FrameIndex i = of; continues_joint(mechanism, i);) {
-    i = mechanism.coordinates[static_cast<std::size_t>(i)].parent;
-    others.push_back(i);
-  }
+/// Coordinates of a coordinate's joint, in their order.
+std::vector<FrameIndex> list_freedoms(const Mechanism& mechanism, FrameIndex of) {
+  const auto continues_joint = [&](FrameIndex i) {
+    return mechanism.coordinates[static_cast<std::size_t>(i)].continues_joint;
+  };
+  while (continues_joint(of)) --of;
+  std::vector<FrameIndex> freedoms{of};
   const auto count = static_cast<FrameIndex>(mechanism.coordinates.size());
-  for (FrameIndex i = of + 1; i < count && continues_joint(mechanism, i) &&
-                              mechanism.coordinates[static_cast<std::size_t>(i)].parent == i - 1;
-       ++i)
-    others.push_back(i);
-  return others;
+  for (FrameIndex i = of + 1; i < count && continues_joint(i); ++i) freedoms.push_back(i);
+  return freedoms;
 }
 
 std::vector<FrameIndex> find_other_slides(const Mechanism& mechanism, FrameIndex of) {
-  std::vector<FrameIndex> slides = find_other_freedoms(mechanism, of);
+  std::vector<FrameIndex> slides = list_freedoms(mechanism, of);
   std::erase_if(slides, [&](FrameIndex i) {
     const bool is_coupled = std::ranges::any_of(
         mechanism.couplings, [i](const Coupling& c) { return c.coordinate == i || c.follows == i; });
-    return is_coupled ||
+    return i == of || is_coupled ||
            mechanism.coordinates[static_cast<std::size_t>(i)].motion != Motion::kTranslation;
   });
   return slides;
@@ -56,6 +45,7 @@ ReactionFriction::ReactionFriction(const Mechanism& mechanism) : reactions_(mech
     joints_.push_back(
         {.actuation = static_cast<Eigen::Index>(k),
          .coordinate = coordinate,
+         .last = list_freedoms(mechanism, coordinate).back(),
          .turns = mechanism.coordinates[static_cast<std::size_t>(coordinate)].motion == Motion::kRotation,
          .length = friction->length,
          .slides = find_other_slides(mechanism, coordinate)});
@@ -79,7 +69,10 @@ double ReactionFriction::calc_normal_force(const Joint& joint, const Evaluation&
   const Eigen::Vector3d radial = force - axial * axis;
   const double thrust = joint.turns ? std::abs(axial) : 0.0;
   if (joint.length == 0.0) return radial.norm() + thrust;
-  const Eigen::Vector3d couple = axis.cross(reaction.moment) / joint.length;
+  const Eigen::Vector3d arm = at.frames[static_cast<std::size_t>(joint.last)].p -
+                              at.frames[static_cast<std::size_t>(joint.coordinate)].p;
+  const Eigen::Vector3d moment = reaction.moment - arm.cross(reaction.force);
+  const Eigen::Vector3d couple = axis.cross(moment) / joint.length;
   return (0.5 * radial + couple).norm() + (0.5 * radial - couple).norm() + thrust;
 }
 

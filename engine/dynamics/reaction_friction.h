@@ -14,8 +14,8 @@ namespace engine {
 /// Normal forces of dry friction in joints without play, by the joints' reactions, which friction changes in
 /// turn.
 ///
-/// A joint bears its reaction, force F and moment M about its origin, at both ends of its length L, half of F
-/// and a couple:
+/// A joint bears its reaction, force F and moment M about its place on the second body, at both ends of its
+/// length L, half of F and a couple:
 ///
 ///     N = |F_r / 2 + a x M / L| + |F_r / 2 - a x M / L| + N_a
 ///
@@ -49,6 +49,7 @@ class ReactionFriction {
   struct Joint {
     Eigen::Index actuation = 0;
     FrameIndex coordinate = 0;
+    FrameIndex last = 0;  ///< coordinate of the joint: its frame is that of the second body
     bool turns = false;
     double length = 0.0;
     std::vector<FrameIndex> slides = {};  ///< other freedoms of the joint

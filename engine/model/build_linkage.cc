@@ -104,6 +104,7 @@ class LinkageBuilder {
     if (made.count > 0) made.first = static_cast<FrameIndex>(built_.mechanism.coordinates.size());
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       frame = add_freedom(joint.freedoms.at(k), kinds[k], frame, placement);
+      built_.mechanism.coordinates.back().continues_joint = k > 0;
       placement = {};
     }
     if (joint.kind == JointKind::kScrew)

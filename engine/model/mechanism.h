@@ -46,6 +46,7 @@ struct Coordinate {
   std::string name;                   ///< the paper's symbol in ASCII, e.g. "psi_1_3_0"
   CoordinateRole role = CoordinateRole::kJoint;
   FrameIndex parent = kGround;        ///< smaller than this coordinate's index
+  bool continues_joint = false;       ///< a further freedom of a described joint, of which its parent is one
   Placement placement;                ///< of the joint in the parent's frame
   Motion motion = Motion::kRotation;
   Axis axis = Axis::kZ;               ///< in the parent's frame after `placement`, and in its frame

@@ -150,6 +150,41 @@ TEST(ReactionFriction, TakesNoPushAlongAnotherFreedomOfItsJoint) {
   EXPECT_NEAR(LinkageRun(linkage, accurate(0.2)).last("turn_normal_force_n"), 20.0, 1e-9);
 }
 
+// A pin bears what its slider is driven by, also if the slider has no mass.
+TEST(ReactionFriction, TellsAJointFromTheOneBeforeAMasslessBody) {
+  const auto find_normal_forces = [](double mass) {
+    Linkage linkage;
+    linkage.bodies = {make_body("slider", mass, {0.0, 0.0, 0.0}, mass * Eigen::Vector3d::Ones()),
+                      make_body("bob", 1.0, {0.0, 0.0, 0.0}, {1e-2, 1e-2, 1e-2})};
+    const FrictionParameters law{.mu_k = 0.2, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
+    linkage.joints = {{.name = "guide", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "slider", .placement = {},
+                       .axes = {Axis::kX, Axis::kY}, .freedoms = {{.name = "x", .drive = Harmonic{.amplitude = 0.1, .omega = 12.0}}}},
+                      {.name = "pin", .from = "slider", .to = "bob", .placement = {},
+                       .freedoms = {{.name = "turn", .start = 0.0, .start_rate = 10.0,
+                                     .friction = JointFriction{.law = law, .radius = 0.01, .by_reaction = true}}}}};
+    return LinkageRun(linkage, accurate(0.2)).column("turn_normal_force_n");
+  };
+  const std::vector<double> without = find_normal_forces(0.0), with_little = find_normal_forces(1e-6);
+  EXPECT_GT(std::ranges::max(without), 14.0);
+  ASSERT_EQ(without.size(), with_little.size());
+  for (std::size_t k = 0; k < without.size(); ++k) EXPECT_NEAR(without[k], with_little[k], 1e-3);
+}
+
+// The plate lies a metre beside the origin; its bearing moves with it.
+TEST(ReactionFriction, HasTheMiddleOfABearingOnTheSecondBody) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, 0.0, -10.0};
+  linkage.bodies = {make_body("plate", 2.0, {0.0, 0.0, 0.0}, {0.05, 0.05, 0.05})};
+  const FrictionParameters law{.mu_k = 0.2, .law = FrictionLaw::kCoulomb, .v_0 = 1e-6};
+  linkage.joints = {{.name = "table", .kind = JointKind::kPlanar, .from = kGroundName, .to = "plate", .placement = {},
+                     .freedoms = {{.name = "x", .start = 0.0, .start_rate = 1.0, .load = ForceLaw{.law = Constant{10.0}},
+                                   .friction = JointFriction{.law = law, .by_reaction = true, .length = 0.1}},
+                                  {.name = "y", .start = 1.0}, {.name = "turn", .start = 0.0}}}};
+  const LinkageRun run(linkage, accurate(0.1));
+  EXPECT_NEAR(run.last("x_normal_force_n"), 20.0, 1e-8);
+  EXPECT_NEAR(run.last("x_m_s"), 1.0 + 0.1 * (10.0 - 0.2 * 20.0) / 2.0, 1e-8);
+}
+
 // Bristles of 1e5 1/m are bent by 2.5 um, less than the absolute tolerance of lengths.
 TEST(JointFriction, OfStiffBristlesIsRightBetweenSteps) {
   Linkage linkage = make_incline(0.0, {.mu_s = 0.25, .mu_k = 0.25, .sigma_0 = 1e5, .sigma_1 = 5.0}, 0.0);
