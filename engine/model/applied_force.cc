@@ -237,9 +237,9 @@ void calc_applied_forces(const Actuation& actuation, double t, const ElementStat
   std::visit([&](const auto& element) { calc_forces(element, t, state, values); }, actuation.element);
 }
 
-double find_next_corner(const Actuation& actuation, double t) {
+double find_next_step_end(const Actuation& actuation, double t) {
   if (const Controller* const controller = controller_of(actuation.element))
-    return find_next_jump(controller->target, t);
+    return find_next_step_end(controller->target, t);
   const Signal* const signal = signal_of_time(actuation.element);
   return signal ? find_next_point(*signal, t) : std::numeric_limits<double>::infinity();
 }

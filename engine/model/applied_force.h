@@ -63,9 +63,9 @@ enum MotorForce { kElectromagnetic, kMotorLoss, kBackEmf, kSupply };
 void calc_applied_forces(const Actuation& actuation, double t, const ElementState& state,
                          AppliedForceValue* values);
 
-/// First instant after t at which the law of a force element over time has a point, or its target's
-/// acceleration jumps; infinite if none follows, [s]
-[[nodiscard]] double find_next_corner(const Actuation& actuation, double t);
+/// First instant after t at which a step has to end: a point of the force element's law over time, or as
+/// find_next_step_end() of a controller's target. Infinite if none follows, [s]
+[[nodiscard]] double find_next_step_end(const Actuation& actuation, double t);
 
 /// @returns whether a force over position or velocity is another one on the way between two instants than a
 /// straight line between them has: a step from the one to the other would pass it by

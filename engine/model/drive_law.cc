@@ -154,6 +154,15 @@ double find_next_jump(const DriveLaw& law, double t) {
   return table ? find_next_jump(*table, t) : kNever;
 }
 
+double find_next_step_end(const DriveLaw& law, double t) {
+  constexpr double kShort = 0.02;  // [s], some of the longest steps
+  if (const auto* const table = std::get_if<VelocityTable>(&law)) return find_next_corner(*table, t);
+  if (const auto* const rise = std::get_if<CycloidalRise>(&law))
+    return rise->time < kShort ? find_next_corner(*rise, t) : kNever;
+  const auto* const strokes = std::get_if<RiseReturnPause>(&law);
+  return strokes && strokes->stroke_time < kShort ? find_next_corner(*strokes, t) : find_next_jump(law, t);
+}
+
 double calc_time_scale(const RunUp& law, double t) {
   if (law.omega == 0.0) return kNever;
   if (t >= law.run_up) return 1.0 / std::abs(law.omega);

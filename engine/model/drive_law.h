@@ -107,6 +107,10 @@ using DriveLaw =
 [[nodiscard]] inline double find_next_jump(const VelocityTable& law, double t) { return law.next_jump(t); }
 [[nodiscard]] double find_next_jump(const DriveLaw& law, double t);
 
+/// First instant after t at which a step has to end: a jump, a point of a table, or the begin or end of a
+/// motion so short that a step could go past it between two of its evaluations. Infinite if none follows, [s]
+[[nodiscard]] double find_next_step_end(const DriveLaw& law, double t);
+
 /// Time in which the drive moves on by about one radian, of its own angle or of its law's sine, from t on;
 /// infinite at rest, [s]. It holds for a tenth of itself.
 [[nodiscard]] double calc_time_scale(const RunUp& law, double t);

@@ -25,10 +25,10 @@ namespace engine {
   return corner;
 }
 
-/// The stretch of time between two jumps of the drives' accelerations, or points of tables of forces. A step
-/// does not cross a jump: it ends there, with the accelerations before the jump, and the next one begins with
-/// those behind it. Steps may end a rounding beside the jump; is_over() decides, not a comparison of
-/// instants.
+/// Stretch of time whose end no step crosses: find_next_step_end() of the motion that a drive or a controller
+/// gives, or a point of a table over time of a force, a voltage or a load. A step that ends there has the
+/// accelerations before a jump, and the next one begins with those behind it. Steps may end a rounding beside
+/// that instant; is_over() decides, not a comparison of instants.
 class DrivePiece {
  public:
   /// All of time.
@@ -40,10 +40,10 @@ class DrivePiece {
     calc_end(0.0);
   }
 
-  /// The instant of the next jump, infinite if there is none, [s]
+  /// [s], infinite if steps may end anywhere
   [[nodiscard]] double end() const { return end_; }
 
-  /// @returns whether a step that ends at t has come to the jump, but for rounding
+  /// @returns whether a step that ends at t has come to the end, but for rounding
   [[nodiscard]] bool is_over(double t) const { return t >= end_ * (1.0 - kRounding); }
 
   /// Goes on to the piece behind this one's end.
@@ -63,8 +63,8 @@ class DrivePiece {
 
   void calc_end(double t) {
     end_ = std::numeric_limits<double>::infinity();
-    for (const Drive& drive : drives_) end_ = std::min(end_, find_next_jump(drive.law, t));
-    for (const Actuation& actuation : actuations_) end_ = std::min(end_, find_next_corner(actuation, t));
+    for (const Drive& drive : drives_) end_ = std::min(end_, find_next_step_end(drive.law, t));
+    for (const Actuation& actuation : actuations_) end_ = std::min(end_, find_next_step_end(actuation, t));
     for (const BodyLoad& load : body_loads_) end_ = std::min(end_, find_next_point(load.law, t));
     latest_ = end_ < std::numeric_limits<double>::infinity() ? end_ * (1.0 - kBeside) : end_;
   }

@@ -50,6 +50,32 @@ INSTANTIATE_TEST_SUITE_P(
                     DriveCase{"smooth_velocities", VelocityTable({0.0, 0.3, 0.7, 1.4}, {0.0, 4.0, -2.0, 3.0},
                                                                  TableInterpolation::kMonotoneCubic, 0.2)}));
 
+/// A cart along x, from which a pendulum of half a metre hangs at rest.
+Linkage make_cart(const DriveLaw& law) {
+  Linkage linkage;
+  linkage.gravity_W = {0.0, -9.81, 0.0};
+  linkage.bodies = {make_body("cart", 1.0, {0.0, 0.0, 0.0}, {0.01, 0.01, 0.01}), make_body("bob", 1.0, {0.0, -0.5, 0.0}, {1e-6, 1e-6, 1e-6})};
+  linkage.joints = {{.name = "rail", .kind = JointKind::kPrismatic, .from = kGroundName, .to = "cart", .placement = {},
+                     .axes = {Axis::kX, Axis::kY}, .freedoms = {{.name = "x", .drive = law}}},
+                    {.name = "pivot", .from = "cart", .to = "bob", .placement = {}, .freedoms = {{.name = "angle", .start = 0.0}}}};
+  return linkage;
+}
+
+// Steps of 5 ms would pass by a motion of a millisecond. The bob stays where it is as the cart moves on by a centimetre.
+TEST(DrivenLinkage, DoesNotMissAShortMotion) {
+  constexpr double kRise = 0.01;
+  for (double begin = 0.5; begin < 0.505; begin += 0.0007) {
+    const std::vector<DriveLaw> laws{
+        CycloidalRise{.from = 0.0, .rise = kRise, .begin = begin, .time = 0.001},
+        VelocityTable({0.0, begin, begin + 0.001, begin + 0.002, 2.0}, {0.0, 0.0, kRise / 0.001, 0.0, 0.0},
+                      TableInterpolation::kMonotoneCubic, 0.0)};
+    for (const DriveLaw& law : laws) {
+      const LinkageRun run(make_cart(law), {.duration = begin + 0.02});
+      EXPECT_NEAR(std::abs(run.last("angle_rad")), kRise / 0.5, 0.1 * kRise / 0.5) << begin << ' ' << law.index();
+    }
+  }
+}
+
 // The same forces and moments, whether the motion is solved or integrated.
 TEST(DrivenLinkage, ItsJointsBearTheMomentsOfTheEquationsOfMotion) {
   const Linkage linkage = drive_crank(make_spatial_slider_crank(JointKind::kUniversal), RunUp{.omega = 6.0, .run_up = 0.2});
