@@ -135,7 +135,7 @@ void check_friction(const RpsupParameters& p) {
 /// @param sectors  of each ring  @param most  the deepest wear, [m]
 void check_ring_wear(const std::vector<double>& ring, std::size_t sectors, double most) {
   require(ring.size() >= 3 && ring.size() == sectors, "wear_depth",
-          "lists of the same three sectors or more");
+          "one list a ring, all of the same number of sectors, at least three");
   for (const double depth : ring)
     require(
         depth >= 0.0 && depth <= most, "wear_depth",

@@ -25,8 +25,7 @@ struct LinkageTables {
 /// a loop or a freedom, "joints" for several of them together, "springs.NAME".
 BuiltLinkage check_linkage(const Linkage& linkage, Integrator integrator = Integrator::kAuto);
 
-/// Freedoms that neither drives nor joints take from a linkage in its assembled position. Those within
-/// clearances and beams count too.
+/// Freedoms that neither drives nor joints take from a linkage in its assembled position. Bending is none.
 /// @throws InvalidInput as check_linkage does.
 [[nodiscard]] int count_undriven_freedoms(const Linkage& linkage);
 

@@ -97,6 +97,16 @@ TEST(Assembly, CountsTheFreedomsThatNoDriveMoves) {
   EXPECT_EQ(count({{"drive", {{"law", "run_up"}, {"velocity_rad_s", 1}}}}), 0);
 }
 
+TEST(Assembly, CountsNoBendingAsAFreedom) {
+  Bench bench(jobs::engine_runner());
+  json request = four_bar({{"guess_rad", 0.0}});
+  request["parameters"]["linkage"]["bodies"]["coupler"] = {
+      {"mass_kg", 1}, {"beam", {{"length_m", 0.5}, {"diameter_mm", 10}, {"elements", 4}}}};
+  const auto answer = bench.call("POST", "/v1/linkages/assembly", request.dump());
+  ASSERT_EQ(answer.status, 200) << answer.body;
+  EXPECT_EQ(json::parse(answer.body).at("undriven_freedoms"), 1);
+}
+
 // The poses are those with which a run begins.
 TEST(Assembly, IsTheFirstSampleOfAJob) {
   Bench bench(jobs::engine_runner());
