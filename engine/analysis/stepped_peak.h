@@ -49,13 +49,12 @@ class SteppedPeak {
   static constexpr double kMargin = 0.5;
 
   /// @returns whether the parabola through the end of this step and the ends of the one before has its
-  /// extreme about here
+  /// extreme in this step, or kMargin of it beyond. From the middle of the step on, its slope is 0 after the
+  /// time -slope / (2 bend).
   [[nodiscard]] bool may_have_extremum(double end, double slope, double dt) const {
     const double sign = end < 0.0 ? -1.0 : 1.0;
     const double bend = sign * (slope - slope_) / (dt + dt_);  // half the second derivative
-    const double rise = sign * slope;                          // the slope in the middle of the step
-    const double limit = -2.0 * bend * (0.5 + kMargin) * dt;
-    return bend < 0.0 && std::abs(rise) < limit;
+    return bend < 0.0 && std::abs(slope) < -2.0 * bend * (0.5 + kMargin) * dt;
   }
 
   Peak peak_;

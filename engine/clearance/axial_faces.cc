@@ -59,7 +59,7 @@ bool AxialFaces::advance_points(int face, const JournalMotion& start, const Jour
     if (touches == latch.in_contact()) continue;
     any |= latch.advance({at_start.calc_delta(x, y), at_start.calc_rate(x, y)},
                          {at_end.calc_delta(x, y), at_end.calc_rate(x, y)}, dt, joint_.minimum_onset_rate);
-    touching_[face] += static_cast<int>(latch.in_contact()) - static_cast<int>(!touches);
+    touching_[face] += touches ? 1 : -1;  // the point has just touched, or parted
   }
   return any;
 }

@@ -17,9 +17,9 @@ using namespace loop_closure;
 namespace {
 
 constexpr double kPerturbation = 0.01, kSmallDisplacement = 1e-4;  // [rad] or [m]
-// Rows nearer to dependence bind so weakly that DelassusMatrix takes them for redundant: its e is the square.
+// Relative pivot below which a row of the Jacobian counts as dependent. DelassusMatrix takes rows below the
+// square of this for redundant: the pivots of J M^-1 J^T are squares of these.
 constexpr double kBindsWeakly = 3e-5;
-
 
 /// Displacement of the driven coordinates when the first of them has moved by a small amount; zero if none
 /// moves soon.

@@ -152,7 +152,7 @@ Radau5::NewtonOutcome Radau5::iterate(MotionSystem& system, const StepPoint& sta
       if (convergence_rate_ >= 1.0) return NewtonOutcome::kNotConverged;
     }
     if (update * convergence_rate_ <= (1.0 - convergence_rate_) * settings_.newton_tolerance) {
-      // One iteration gives no new rate: the old one drifts towards unknown.
+      // One iteration measures no rate. The last one is trusted less each time: its power 0.8 is larger.
       convergence_rate_ =
           std::min(iteration > 0 ? convergence_rate_ : std::pow(convergence_rate_, 0.8), kUnknownRate);
       return NewtonOutcome::kConverged;
