@@ -67,10 +67,11 @@ function provenanceOf({ program, libm, ...run }) {
 }
 
 /// Parameters of a job by their paths, those of its links one by one, without the linkage.
-/** @param {Api.Job} job  @returns {any[][]} */
-function parametersOf({ parameters: { linkage: _, links = {}, ...others } }) {
-  const ofLinks = Object.entries(links).flatMap(([link, values]) =>
-    Object.entries(values).map(([key, value]) => [`links.${link}.${key}`, value]));
+/** @param {Api.Job} job  @returns {[string, any][]} */
+function parametersOf({ parameters: { linkage: _, links, ...others } }) {
+  /** @type {[string, any][]} */
+  const ofLinks = Object.entries(links ?? {}).flatMap(([link, values]) =>
+    Object.entries(values).map(([key, value]) => /** @type {[string, any]} */ ([`links.${link}.${key}`, value])));
   return [...Object.entries(others), ...ofLinks].filter(([, value]) => value !== null && value !== undefined);
 }
 
