@@ -112,8 +112,8 @@ def busy_sweep(seed):
 
 
 def long_search():
-    return {"parameters": {"duration_s": 0.4, "run_up_s": 0.02}, "reuse": False, "metric": "peak_slider_acceleration_m_s2", "bound": 1,
-            "over": {"clearance_mm": {"from": 0.1, "to": 0.5, "first": 200}}}
+    return {"parameters": {"duration_s": 4, "run_up_s": 0.02}, "reuse": False, "metric": "peak_slider_acceleration_m_s2", "bound": 1,
+            "over": {"clearance_mm": {"from": 0.1, "to": 0.5, "first": 20}}}
 
 
 def check_reads(service, sweep_id, table):
