@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -38,13 +39,14 @@ std::vector<double> list_speeds_in_the_middle(const RunResult& run) {
   return speeds;
 }
 
-/// Mean of the periods between zeros of a column.
+/// Mean of the periods between zeros of a column; no number if there are not two.
 double find_period(const RunResult& run, const char* key) {
   const std::vector<double>& x = column(run, key);
   const std::vector<double>& t = column(run, "t_s");
   std::vector<double> zeros;
   for (std::size_t k = 1; k < x.size(); ++k)
     if (x[k - 1] * x[k] < 0.0) zeros.push_back(t[k - 1] - x[k - 1] * (t[k] - t[k - 1]) / (x[k] - x[k - 1]));
+  if (zeros.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   return 2.0 * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
 }
 
