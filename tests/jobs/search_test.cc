@@ -161,15 +161,21 @@ TEST(Search, IsCancelledAndTakenUpAgain) {
   EXPECT_FALSE(service.delete_study(StudyKind::kSearch, id));
 }
 
+/// Begins a search, and cancels the job of its last first value, which is beyond the limit. The engine holds.
+json begin_with_a_cancelled_job(jobs::Service& service, FakeEngine& engine) {
+  engine.hold();
+  json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
+  engine.await_running(1);
+  const json& last = begun.at("limits").at(0).at("points").at(4);
+  EXPECT_EQ(service.cancel_job(last.at("job_ids").at(0)).value().at("state"), "cancelled");
+  return begun;
+}
+
 TEST(Search, IsRetriedWhileItRuns) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  engine.hold();
-  const json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
-  engine.await_running(1);
-  const json& last = begun.at("limits").at(0).at("points").at(4);
-  EXPECT_EQ(service.cancel_job(last.at("job_ids").at(0)).value().at("state"), "cancelled");
+  const json begun = begin_with_a_cancelled_job(service, engine);
   const json retried = service.retry_study(StudyKind::kSearch, begun.at("id")).value();
   EXPECT_EQ(retried.at("counts").at("cancelled"), 0);
   engine.release();
@@ -180,11 +186,7 @@ TEST(Search, AddsNoJobsOnceOneIsCancelled) {
   const TemporaryStore store;
   FakeEngine engine;
   jobs::Service service(options_of(store, engine, 1));
-  engine.hold();
-  const json begun = service.submit_study(StudyKind::kSearch, request_for(5.3));
-  engine.await_running(1);
-  const json& last = begun.at("limits").at(0).at("points").at(4);  // beyond the limit
-  EXPECT_EQ(service.cancel_job(last.at("job_ids").at(0)).value().at("state"), "cancelled");
+  const json begun = begin_with_a_cancelled_job(service, engine);
   engine.release();
   const json ended = wait_for_end(service, begun.at("id"));
   EXPECT_EQ(ended.at("state"), "cancelled");
