@@ -185,7 +185,7 @@ FitSampler::Points FitSampler::run_design() {
   return {};
 }
 
-/// Needed where each point has one of them, as impacts: no sum of squares is a number before.
+/// Without that scale, no sum of squares is a number where all points have such features, as impacts.
 void FitSampler::scale_absent_features() {
   for (std::size_t k = 0; k < feature_scale_.size(); ++k) {
     if (observer_->measured_features()[k] != 0.0) continue;
